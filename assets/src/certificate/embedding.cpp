@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+
+#include "certificate/surface.h"
+#include "geometry/triangle_bvh.h"
+#include "geometry/triangle_pair.h"
+#include "geometry/winding.h"
+
+namespace plumb::inline PLUMB_ABI::assets::detail {
+namespace {
+
+// Pairs of overlapping boxes to look at before giving up [1]: some 20 s. A mesh of 1e5 even faces
+// has about 1e6; only a soup of long thin faces comes near.
+constexpr std::size_t kMaxPairs = 100'000'000;
+constexpr std::size_t kMaxExamples = 8;
+// Faces whose two sides are sampled; beyond this they are taken evenly.
+constexpr std::size_t kMaxWindingSamples = 20000;
+
+void find_crossings(const Surface& surface, const std::vector<std::uint32_t>& faces,
+                    const CertifyOptions& options, MeshCertificate& certificate,
+                    std::vector<bool>& touched) {
+  const TriangleBvh bvh(surface.places, surface.faces, faces);
+  std::size_t pairs = 0;
+  certificate.embedding = Embedding::Clean;
+  bvh.overlapping_pairs([&](std::uint32_t a, std::uint32_t b) {
+    if (++pairs > kMaxPairs) {
+      certificate.crossing_count_complete = false;
+      return false;
+    }
+    Triangle first = surface.faces[a], second = surface.faces[b];
+    std::sort(first.begin(), first.end());
+    std::sort(second.begin(), second.end());
+    if (first == second) return true;  // counted as a duplicate face
+    switch (relation_of(surface.places, surface.faces[a], surface.faces[b])) {
+      case PairRelation::Apart: return true;
+      case PairRelation::Touching:
+        ++certificate.touching_pairs;
+        touched[a] = touched[b] = true;
+        break;
+      case PairRelation::Crossing:
+        ++certificate.crossing_pairs;
+        if (certificate.crossing_examples.size() < kMaxExamples) {
+          certificate.crossing_examples.push_back({surface.source[std::min(a, b)], surface.source[std::max(a, b)]});
+        }
+        break;
+    }
+    if (certificate.crossing_pairs < options.max_crossing_pairs) return true;
+    certificate.crossing_count_complete = false;
+    return false;
+  });
+  if (certificate.touching_pairs > 0) certificate.embedding = Embedding::Touching;
+  if (certificate.crossing_pairs > 0) certificate.embedding = Embedding::Crossing;
+}
+
+// The faces to sample: the largest of each component, those that touch others, and an even choice.
+std::vector<std::uint32_t> faces_to_sample(const Surface& surface, const MeshCertificate& certificate,
+                                           const std::vector<std::uint32_t>& faces,
+                                           const std::vector<bool>& touched) {
+  constexpr std::uint32_t kNone = ~0u;
+  std::vector<std::uint32_t> largest(certificate.components, kNone), chosen;
+  for (const std::uint32_t f : faces) {
+    std::uint32_t& best = largest[surface.component_of[f]];
+    if (best == kNone || surface.areas[f] > surface.areas[best]) best = f;
+  }
+  for (const std::uint32_t f : largest) {
+    if (f != kNone) chosen.push_back(f);
+  }
+  std::size_t touching = 0;
+  for (const std::uint32_t f : faces) {
+    if (touched[f] && touching++ < kMaxWindingSamples) chosen.push_back(f);
+  }
+  const std::size_t stride = faces.size() / kMaxWindingSamples + 1;
+  for (std::size_t i = 0; i < faces.size(); i += stride) chosen.push_back(faces[i]);
+  return chosen;
+}
+
+void sample_winding(const Surface& surface, const std::vector<std::uint32_t>& faces,
+                    const std::vector<bool>& touched, MeshCertificate& certificate) {
+  const WindingField field(surface.places, surface.faces, faces);
+  std::vector<bool> seen(certificate.components, false);
+  bool first = true;
+  for (const std::uint32_t f : faces_to_sample(surface, certificate, faces, touched)) {
+    const WindingField::Sides sides = field.beside(f);
+    const int front = static_cast<int>(std::lround(sides.front));
+    const int back = static_cast<int>(std::lround(sides.back));
+    certificate.winding_min = first ? std::min(front, back) : std::min({certificate.winding_min, front, back});
+    certificate.winding_max = first ? std::max(front, back) : std::max({certificate.winding_max, front, back});
+    first = false;
+    ++certificate.winding_samples;
+    const std::uint32_t c = surface.component_of[f];
+    ComponentCertificate& component = certificate.component_list[c];
+    if (!seen[c]) component.cavity = component.signed_volume < 0 && front == 0 && back == 1;
+    seen[c] = true;
+  }
+  certificate.cavities = static_cast<std::size_t>(
+      std::count_if(certificate.component_list.begin(), certificate.component_list.end(),
+                    [](const ComponentCertificate& component) { return component.cavity; }));
+  certificate.inside_out =
+      certificate.signed_volume < 0 && certificate.winding_min == -1 && certificate.winding_max == 0;
+}
+
+}  // namespace
+
+void examine_embedding(const Surface& surface, const CertifyOptions& options,
+                       MeshCertificate& certificate) {
+  std::vector<std::uint32_t> faces;  // with area: the others have no sides to speak of
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    if (surface.areas[f] > 0) faces.push_back(f);
+  }
+  if (faces.empty()) return;
+  std::vector<bool> touched(surface.faces.size(), false);
+  if (options.test_self_crossing) find_crossings(surface, faces, options, certificate, touched);
+  if (certificate.closed && certificate.consistently_oriented) {
+    sample_winding(surface, faces, touched, certificate);
+  }
+}
+
+}  // namespace plumb::inline PLUMB_ABI::assets::detail

@@ -1,0 +1,23 @@
+// How two triangles of one mesh lie to each other, exactly for the coordinates as given.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "plumb/assets/mesh.h"
+
+namespace plumb::inline PLUMB_ABI::assets::detail {
+
+enum class PairRelation {
+  Apart,     // nothing in common but shared vertices and edges
+  Touching,  // a common point on the rim of one of them, or a common piece of plane
+  Crossing,  // an edge of one runs through the inside of the other
+};
+
+// Vertex indices must name places: equal places, equal indices. Both triangles must have area and
+// must not have all three vertices in common.
+PairRelation relation_of(const std::vector<Eigen::Vector3d>& places, const Triangle& first,
+                         const Triangle& second);
+
+}  // namespace plumb::inline PLUMB_ABI::assets::detail

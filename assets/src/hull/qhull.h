@@ -1,0 +1,19 @@
+// One run of Qhull [Barber 1996]: points in, outward polygons out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "plumb/assets/result.h"
+
+namespace plumb::inline PLUMB_ABI::assets::detail {
+
+using Polygons = std::vector<std::vector<std::uint32_t>>;  // point numbers, counter-clockwise from outside
+
+// `points` should be of size about 1; faces flat to `coplanar_tolerance` are merged.
+Result<Polygons> run_qhull(const std::vector<Eigen::Vector3d>& points, double coplanar_tolerance);
+
+}  // namespace plumb::inline PLUMB_ABI::assets::detail

@@ -1,0 +1,168 @@
+#include <string>
+#include <utility>
+
+#include "plumb/assets/certificate.h"
+#include "plumb/assets/scene.h"
+#include "scene/prepared_mesh.h"
+#include "scene/repeat.h"
+
+namespace plumb::inline PLUMB_ABI::assets {
+namespace {
+
+using scene::MeshStore;
+using scene::PreparedMesh;
+
+std::string place_of(const Scene& scene, int line) {
+  return line > 0 ? scene.source + ":" + std::to_string(line) : scene.source;
+}
+
+// Puts the world back to what it was unless the build came to its end.
+class Undo {
+ public:
+  explicit Undo(PhysicsWorld& world) : world_(world), settings_(world.settings()) {}
+  Undo(const Undo&) = delete;
+  Undo& operator=(const Undo&) = delete;
+  ~Undo() {
+    if (done_) return;
+    for (auto body = bodies_.rbegin(); body != bodies_.rend(); ++body)
+      (void)world_.destroy_body(*body);
+    (void)world_.set_settings(settings_);
+  }
+  void created(BodyId body) { bodies_.push_back(body); }
+  void keep() { done_ = true; }
+
+ private:
+  PhysicsWorld& world_;
+  WorldSettings settings_;
+  std::vector<BodyId> bodies_;
+  bool done_ = false;
+};
+
+// Mass of the body's colliders together. Bodies of plain shapes alone leave it to the world, which
+// counts the same way; a mesh has a mass of its own that its hull does not know.
+Result<std::optional<MassProperties>> mass_of_body(const Scene& scene, const SceneBody& body,
+                                                   MeshStore& meshes) {
+  if (body.body.type != MotionType::Dynamic) return std::optional<MassProperties>{};
+  bool needed = body.mass_scaled_to.has_value();
+  for (const SceneCollider& collider : body.colliders) needed = needed || !collider.mesh.empty();
+  if (!needed || body.body.mass) return body.body.mass;
+
+  std::optional<MassProperties> sum;
+  for (const SceneCollider& part : body.colliders) {
+    const Collider& collider = part.collider;
+    if (collider.is_sensor || part.density == 0.0) continue;
+    MassProperties own;
+    if (part.mesh.empty()) {
+      const ShapeMass shape = mass_of(collider.shape, part.density.value_or(collider.density));
+      if (!shape.status.ok()) return Error{place_of(scene, part.line) + ": " + shape.status.message};
+      own = shape.properties;
+    } else {
+      const Result<MassProperties> mesh_mass = meshes.mass_of(part.mesh, part.density);
+      if (!mesh_mass.ok()) return Error{mesh_mass.error()};
+      own = mesh_mass.value();
+    }
+    own = own.placed(collider.pose.position.cast<double>(),
+                     Eigen::Quaterniond(collider.pose.orientation.cast<double>()));
+    sum = sum ? sum->plus(own) : own;
+  }
+  if (!sum) {
+    return Error{place_of(scene, body.line) + ": body '" + body.name +
+                 "' moves, but its colliders have no mass; give one of them a density or the body a mass"};
+  }
+  if (body.mass_scaled_to) sum = sum->scaled_to_mass(*body.mass_scaled_to);
+  return sum;
+}
+
+// The body of the file as the world wants it, without its place in a repeat.
+struct Template {
+  RigidBody body;
+  std::vector<Collider> colliders;
+  std::vector<SceneVisual> visuals;
+};
+
+Result<Template> make_template(const Scene& scene, const SceneBody& body, MeshStore& meshes) {
+  Template out;
+  out.body = body.body;
+  for (const SceneCollider& part : body.colliders) {
+    Collider collider = part.collider;
+    if (part.density) collider.density = *part.density;
+    if (!part.mesh.empty()) {
+      const Result<std::size_t> mesh = meshes.index_of(part.mesh);
+      if (!mesh.ok()) return Error{mesh.error()};
+      collider.shape = ConvexHull{meshes.at(mesh.value()).hull};
+      out.visuals.push_back({mesh.value(), collider.pose});
+    }
+    out.colliders.push_back(std::move(collider));
+  }
+  Result<std::optional<MassProperties>> mass = mass_of_body(scene, body, meshes);
+  if (!mass.ok()) return Error{mass.error()};
+  out.body.mass = mass.value();
+  return out;
+}
+
+std::string world_error(const Scene& scene, int line, const std::string& name, const Status& status) {
+  return place_of(scene, line) + ": body '" + name + "': " + status.message;
+}
+
+// Empty text: it went well.
+std::string add_body(const Scene& scene, const SceneBody& source, const Template& model,
+                     const std::string& name, const scene::RepeatPlace& place, PhysicsWorld& world,
+                     SceneInstance& instance, Undo& undo) {
+  RigidBody body = model.body;
+  if (source.repeat) {
+    body.pose.position = (body.pose.position.cast<double>() + place.offset).cast<PosReal>();
+    body.pose.orientation =
+        (place.turn * Eigen::Quaterniond(body.pose.orientation.cast<double>())).cast<Real>();
+  }
+  body.user_data = instance.bodies.size();
+  const Created<BodyId> created = world.create_body(body);
+  if (!created.ok()) return world_error(scene, source.line, name, created.status);
+  undo.created(created.id);
+
+  SceneInstanceBody& entry = instance.bodies.emplace_back();
+  entry.name = name;
+  entry.id = created.id;
+  entry.visuals = model.visuals;
+  for (std::size_t k = 0; k < model.colliders.size(); ++k) {
+    const Created<ColliderId> collider = world.create_collider(created.id, model.colliders[k]);
+    if (!collider.ok()) {
+      return world_error(scene, source.colliders[k].line, name, collider.status);
+    }
+    entry.colliders.push_back(collider.id);
+  }
+  instance.index_of.emplace(name, instance.bodies.size() - 1);
+  return {};
+}
+
+}  // namespace
+
+BodyId SceneInstance::find(std::string_view name) const {
+  const auto found = index_of.find(name);
+  return found == index_of.end() ? BodyId{} : bodies[found->second].id;
+}
+
+Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
+  Undo undo(world);
+  if (const Status status = world.set_settings(scene.settings); !status.ok()) {
+    return Error{scene.source + ": settings: " + status.message};
+  }
+  SceneInstance instance;
+  MeshStore meshes(scene);
+  for (const SceneBody& body : scene.bodies) {
+    const Result<Template> model = make_template(scene, body, meshes);
+    if (!model.ok()) return Error{model.error()};
+    const std::vector<scene::RepeatPlace> places =
+        body.repeat ? scene::places_of(*body.repeat) : std::vector<scene::RepeatPlace>(1);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const std::string name = body.repeat ? body.name + "[" + std::to_string(k) + "]" : body.name;
+      std::string error =
+          add_body(scene, body, model.value(), name, places[k], world, instance, undo);
+      if (!error.empty()) return Error{std::move(error)};
+    }
+  }
+  meshes.move_into(instance);
+  undo.keep();
+  return instance;
+}
+
+}  // namespace plumb::inline PLUMB_ABI::assets

@@ -1,0 +1,89 @@
+#include "scene/prepared_mesh.h"
+
+#include <cstdio>
+
+#include "plumb/assets/import.h"
+#include "plumb/assets/mass.h"
+#include "plumb/assets/to_physics.h"
+
+namespace plumb::inline PLUMB_ABI::assets::scene {
+namespace {
+
+// A hull this much larger than its mesh is worth a note: things will rest on air.
+constexpr double kNotableHullExcess = 0.05;  // relative volume
+
+}  // namespace
+
+std::string MeshStore::place_of(const SceneMesh& mesh) const {
+  std::string place = scene_.source;
+  if (mesh.line > 0) place += ":" + std::to_string(mesh.line);
+  return place + ": mesh '" + mesh.name + "': ";
+}
+
+Result<std::size_t> MeshStore::index_of(const std::string& name) {
+  for (std::size_t k = 0; k < meshes_.size(); ++k)
+    if (meshes_[k].source->name == name) return k;
+
+  const SceneMesh* source = scene_.find_mesh(name);
+  if (!source) return Error{scene_.source + ": there is no mesh '" + name + "'"};
+  ImportOptions options;
+  options.metres_per_unit = source->metres_per_unit;
+  options.file_up = source->up;
+  Result<Imported> imported = import_mesh(source->path, options);
+  if (!imported.ok()) return Error{place_of(*source) + imported.error()};
+
+  PreparedMesh prepared;
+  prepared.source = source;
+  prepared.mesh = std::move(imported.value().mesh);
+  Result<HullMesh> hull =
+      convex_hull(prepared.mesh.vertices, {.max_vertices = source->max_hull_vertices});
+  if (!hull.ok()) return Error{place_of(*source) + hull.error()};
+  prepared.hull_mesh = std::move(hull).value();
+  Result<std::shared_ptr<const HullGeometry>> geometry = to_physics(prepared.hull_mesh);
+  if (!geometry.ok()) return Error{place_of(*source) + geometry.error()};
+  prepared.hull = geometry.value();
+  meshes_.push_back(std::move(prepared));
+  return meshes_.size() - 1;
+}
+
+Result<MassProperties> MeshStore::mass_of(const std::string& name, std::optional<double> density) {
+  const Result<std::size_t> index = index_of(name);
+  if (!index.ok()) return Error{index.error()};
+  PreparedMesh& mesh = meshes_[index.value()];
+  if (!mesh.mass) {
+    const Result<MeshMass> mass = mass_of_mesh(mesh.mesh, mesh.source->mass);
+    if (!mass.ok()) return Error{place_of(*mesh.source) + mass.error()};
+    const Result<MassProperties> properties = to_physics(mass.value());
+    if (!properties.ok()) return Error{place_of(*mesh.source) + properties.error()};
+    mesh.mass = properties.value();
+    mesh.density = mass->density;
+    // The material of a shell does not fill the mesh, and a hull's mass is that of the hull itself.
+    const bool fills = mass->method == MassMethod::Solid || mass->method == MassMethod::Voxel;
+    if (fills) mesh.volume = mass->volume;
+  }
+  if (!density) return *mesh.mass;
+  return mesh.mass->scaled_to_mass(mesh.mass->mass * *density / mesh.density);
+}
+
+void MeshStore::move_into(SceneInstance& instance) {
+  for (PreparedMesh& mesh : meshes_) {
+    SceneInstanceMesh& out = instance.meshes.emplace_back();
+    out.name = mesh.source->name;
+    out.hull = std::move(mesh.hull);
+    if (mesh.volume > 0) {
+      const Result<MeshMass> hull_mass =
+          mass_of_mesh(triangulated(mesh.hull_mesh), {.method = MassMethod::Hull});
+      if (hull_mass.ok()) out.hull_excess = hull_mass->volume / mesh.volume - 1;
+    }
+    out.mesh = std::move(mesh.mesh);
+    if (out.hull_excess > kNotableHullExcess) {
+      char text[64];
+      std::snprintf(text, sizeof text, "%.0f %% more volume", 100 * out.hull_excess);
+      instance.notes.push_back("mesh '" + out.name + "' collides as its convex hull, which has " + text +
+                               " than the mesh");
+    }
+  }
+  meshes_.clear();
+}
+
+}  // namespace plumb::inline PLUMB_ABI::assets::scene

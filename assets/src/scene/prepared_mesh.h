@@ -1,0 +1,42 @@
+// The meshes of a scene, each read and turned into a hull once, when the first body asks for it; its
+// mass only when a moving body needs it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plumb/assets/scene.h"
+
+namespace plumb::inline PLUMB_ABI::assets::scene {
+
+struct PreparedMesh {
+  const SceneMesh* source = nullptr;
+  TriangleMesh mesh;
+  HullMesh hull_mesh;
+  std::shared_ptr<const HullGeometry> hull;
+  std::optional<MassProperties> mass;  // at the density of the scene's mesh
+  double density = 0;                  // [kg/m^3] of `mass`
+  double volume = 0;                   // [m^3] inside the mesh; 0 if not known
+};
+
+class MeshStore {
+ public:
+  explicit MeshStore(const plumb::PLUMB_ABI::assets::Scene& scene) : scene_(scene) {}
+
+  Result<std::size_t> index_of(const std::string& name);
+  [[nodiscard]] const PreparedMesh& at(std::size_t index) const { return meshes_[index]; }
+  // With a density other than that of the mesh if one is given [kg/m^3] > 0.
+  Result<MassProperties> mass_of(const std::string& name, std::optional<double> density);
+  // Visual meshes, hulls and notes.
+  void move_into(SceneInstance& instance);
+
+ private:
+  [[nodiscard]] std::string place_of(const SceneMesh& mesh) const;
+
+  const plumb::PLUMB_ABI::assets::Scene& scene_;
+  std::vector<PreparedMesh> meshes_;
+};
+
+}  // namespace plumb::inline PLUMB_ABI::assets::scene

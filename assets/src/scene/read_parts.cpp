@@ -1,0 +1,196 @@
+#include "scene/read_parts.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace plumb::inline PLUMB_ABI::assets::scene {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+// A quaternion typed with three decimals is that near to length one; farther off is a slip.
+constexpr double kUnitTolerance = 2e-3;
+constexpr int kFewestHullVertices = 4;
+constexpr int kMostHullVertices = 1024;
+constexpr int kCoarsestVoxels = 8;
+constexpr int kFinestVoxels = 512;
+constexpr int kMostSubsteps = 64;
+// Steps shorter or longer than these, and longer runs, are slips of a unit.
+constexpr Range kStepRange{1e-9, 1e3, false};      // [s]
+constexpr Range kRateRange{1e-3, 1e9, false};      // [1/s]
+constexpr Range kDurationRange{0, 1e9, false};     // [s]
+
+Eigen::Quaterniond about(const Eigen::Vector3d& axis, double degrees) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kRadiansPerDegree, axis));
+}
+
+}  // namespace
+
+void read_step(const JsonNode& node, SceneStep& step, Problems& problems) {
+  const ObjectReader in(node, "step", keys::kStep, problems);
+  if (!in.is_object()) return;
+  if (in.has("dt") && in.has("rate")) {
+    problems.add(in.line_of("rate"), "step has both 'dt' and 'rate'", "keep one of them");
+  }
+  double rate = 0;
+  in.number("dt", step.dt, kStepRange);
+  if (in.number("rate", rate, kRateRange)) step.dt = 1 / rate;
+  in.number("duration", step.duration, kDurationRange);
+}
+
+void read_settings(const JsonNode& node, WorldSettings& settings, Problems& problems) {
+  const ObjectReader in(node, "settings", keys::kSettings, problems);
+  if (!in.is_object()) return;
+  in.vector("gravity", settings.gravity);
+  in.integer("substeps", settings.substeps, 1, kMostSubsteps);
+  in.number("contact_frequency", settings.contact_frequency, kPositive);
+  in.number("contact_damping_ratio", settings.contact_damping_ratio, kNotNegative);
+  in.choice("rotation", kRotationMethods, settings.rotation);
+  in.flag("warm_starting", settings.warm_starting);
+  in.flag("sleeping", settings.sleeping);
+  in.number("time_to_sleep", settings.time_to_sleep, kNotNegative);
+  const Status status = check(settings);
+  if (!status.ok() && problems.empty()) {
+    problems.add(node.line, std::string("settings: ") + status.message, "");
+  }
+}
+
+void read_material(const JsonNode& node, const std::string& what, Material& material,
+                   Problems& problems) {
+  const ObjectReader in(node, what, keys::kMaterial, problems);
+  if (!in.is_object()) return;
+  in.number("friction", material.friction, kNotNegative);
+  in.number("restitution", material.restitution, {0, 1, false});
+  in.choice("friction_rule", kCombineRules, material.friction_rule);
+  in.choice("restitution_rule", kCombineRules, material.restitution_rule);
+}
+
+void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, Problems& problems) {
+  const ObjectReader in(node, what, keys::kMesh, problems);
+  mesh.line = node.line;
+  if (!in.is_object()) return;
+  in.text("file", mesh.file);
+  if (!in.has("file")) {
+    in.missing("file", "name the mesh file, relative to the folder of the scene");
+  } else if (mesh.file.empty() && in.find("file")->kind == JsonNode::Kind::Text) {
+    problems.add(in.line_of("file"), "'file' of " + what + " is empty",
+                 "name the mesh file, relative to the folder of the scene");
+  }
+  double scale = 1;
+  if (in.number("metres_per_unit", scale, kPositive)) mesh.metres_per_unit = scale;
+  Axis up = Axis::Y;
+  if (in.choice("up", kAxes, up)) mesh.up = up;
+  in.choice("collision", kCollisions, mesh.collision);
+  if (!in.has("collision")) {
+    in.missing("collision",
+               "write \"collision\": \"hull\" to let it collide as its convex hull, the hollows of a "
+               "concave mesh filled");
+  }
+  int vertices = static_cast<int>(mesh.max_hull_vertices);
+  in.integer("max_hull_vertices", vertices, kFewestHullVertices, kMostHullVertices);
+  mesh.max_hull_vertices = static_cast<std::size_t>(vertices);
+  in.number("density", mesh.mass.density, kPositive);
+
+  if (const JsonNode* method = in.find("mass_of")) {
+    const std::string part = "mass_of of " + what;
+    const ObjectReader mass(*method, part, keys::kMassOf, problems);
+    if (!mass.is_object()) return;
+    mass.choice("method", kMassMethods, mesh.mass.method);
+    mass.number("thickness", mesh.mass.shell_thickness, kPositive);
+    mass.integer("resolution", mesh.mass.voxel_resolution, kCoarsestVoxels, kFinestVoxels);
+    if (!mass.has("method")) mass.missing("method", "use one of solid, shell, hull, voxel");
+    const bool shell = mesh.mass.method == MassMethod::Shell;
+    if (shell && !mass.has("thickness")) {
+      mass.missing("thickness", "give the thickness of the shell in metres");
+    }
+    if (!shell && mass.has("thickness")) {
+      problems.add(mass.line_of("thickness"), "'thickness' has no meaning unless the method is shell",
+                   "remove it or write \"method\": \"shell\"");
+    }
+    if (mesh.mass.method != MassMethod::Voxel && mass.has("resolution")) {
+      problems.add(mass.line_of("resolution"), "'resolution' has no meaning unless the method is voxel",
+                   "remove it or write \"method\": \"voxel\"");
+    }
+  }
+}
+
+bool read_orientation(const ObjectReader& parent, Eigen::Quaterniond& orientation) {
+  const JsonNode* node = parent.find("orientation");
+  if (!node) return false;
+  const std::string what = "orientation of " + parent.what();
+  const ObjectReader in(*node, what, keys::kOrientation, parent.problems());
+  if (!in.is_object()) return false;
+  const int given = (in.has("quaternion") ? 1 : 0) + (in.has("euler_degrees") ? 1 : 0) +
+                    (in.has("axis_angle") ? 1 : 0);
+  if (given != 1) {
+    parent.problems().add(node->line, what + (given ? " is given in several ways" : " is empty"),
+                          "give one of quaternion [x, y, z, w], euler_degrees [x, y, z] or axis_angle "
+                          "[x, y, z, degrees]");
+    return false;
+  }
+  double v[4];
+  if (in.numbers("quaternion", v, 4)) {
+    const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
+    if (!(std::abs(q.norm() - 1) <= kUnitTolerance)) {
+      parent.problems().add(in.line_of("quaternion"),
+                            "the quaternion of " + what + " has length " + std::to_string(q.norm()),
+                            "write a unit quaternion [x, y, z, w]; no rotation is [0, 0, 0, 1]");
+      return false;
+    }
+    // Kept as it is if it is as near to unit length as rounding lets it be, so that a quaternion
+    // that was written out comes back with the same bits.
+    constexpr double kRounding = 4e-16;
+    orientation = std::abs(q.squaredNorm() - 1) <= kRounding ? q : q.normalized();
+    return true;
+  }
+  if (in.numbers("euler_degrees", v, 3)) {
+    // About the world's x, then y, then z axis.
+    orientation = about(Eigen::Vector3d::UnitZ(), v[2]) * about(Eigen::Vector3d::UnitY(), v[1]) *
+                  about(Eigen::Vector3d::UnitX(), v[0]);
+    return true;
+  }
+  if (in.numbers("axis_angle", v, 4)) {
+    const Eigen::Vector3d axis(v[0], v[1], v[2]);
+    if (!(axis.norm() > 0)) {
+      parent.problems().add(in.line_of("axis_angle"), "the axis of " + what + " has no length",
+                            "write [x, y, z, degrees] with an axis of any length but zero");
+      return false;
+    }
+    orientation = about(axis.normalized(), v[3]);
+    return true;
+  }
+  return false;
+}
+
+void read_repeat(const JsonNode& node, const std::string& what, SceneRepeat& repeat,
+                 Problems& problems) {
+  const ObjectReader in(node, "repeat of " + what, keys::kRepeat, problems);
+  if (!in.is_object()) return;
+  double count[3] = {1, 1, 1};
+  if (!in.has("count")) in.missing("count", "give the copies along x, y and z: [4, 1, 4]");
+  if (in.numbers("count", count, 3)) {
+    bool good = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      good = good && count[k] >= 1 && count[k] <= static_cast<double>(kMostBodies) &&
+             count[k] == std::floor(count[k]);
+      if (good) repeat.count[k] = static_cast<int>(count[k]);
+    }
+    if (!good) {
+      problems.add(in.line_of("count"), "'count' of " + in.what() + " must be whole numbers >= 1",
+                   "write the copies along x, y and z: [4, 1, 4]");
+      repeat.count = {1, 1, 1};
+    }
+  }
+  in.vector("spacing", repeat.spacing);
+  in.vector("jitter", repeat.jitter, kNotNegative);
+  in.flag("random_orientation", repeat.random_orientation);
+  if (const JsonNode* seed = in.find("seed")) {
+    if (seed->is_unsigned) {
+      repeat.seed = seed->integer;
+    } else {
+      problems.add(seed->line, "'seed' of " + in.what() + " must be a whole number >= 0",
+                   "write any such number, for example 1");
+    }
+  }
+}
+
+}  // namespace plumb::inline PLUMB_ABI::assets::scene

@@ -1,0 +1,47 @@
+// What the `plumb` program can do: one function a subcommand, each returns the exit code.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace plumb::cli {
+
+enum ExitCode : int {
+  kOk = 0,
+  kFailed = 1,    // a run or a check did not succeed
+  kBadInput = 2,  // the user has to correct something: an option, a file, a path
+};
+
+struct RunOptions {
+  std::string scene;
+  std::string output;  // empty: nothing is recorded
+  std::optional<std::uint64_t> steps;
+  std::optional<double> dt;  // [s]
+  std::optional<int> substeps;
+  int threads = 1;  // 0: as many as the machine has
+  bool quiet = false;
+};
+int run_scene(const RunOptions& options);
+
+struct MeshOptions {
+  std::string file;
+  std::string method = "solid";
+  std::string up;  // empty: what the file says
+  double density = 1000;            // [kg/m^3]
+  double thickness = 0;             // [m] of a shell
+  std::optional<double> metres_per_unit;
+  bool json = false;
+};
+int inspect_mesh(const MeshOptions& options);
+
+int print_plan(const std::string& scene);
+
+int replay_info(const std::string& recording);
+int replay_verify(const std::string& recording, int threads);
+int replay_diff(const std::string& recording_a, const std::string& recording_b);
+
+// To stderr, with the program's name before it.
+void complain(const std::string& text);
+
+}  // namespace plumb::cli

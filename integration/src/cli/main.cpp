@@ -1,0 +1,121 @@
+// The `plumb` program: command line, help and exit codes.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "cli/commands.h"
+#include "plumb/integration/version.h"
+#include "plumb/precision.h"
+
+namespace plumb::cli {
+
+void complain(const std::string& text) { std::fprintf(stderr, "plumb: %s\n", text.c_str()); }
+
+namespace {
+
+#if defined(PLUMB_WITH_REPLAY)
+constexpr const char* kRecording = "records and replays";
+#else
+constexpr const char* kRecording = "built without recording";
+#endif
+
+constexpr int kMostThreads = 256;
+
+void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
+  CLI::App* run = app.add_subcommand("run", "Simulate a scene; record it with -o");
+  run->add_option("SCENE", options.scene, "Scene file (JSON)")->required();
+  run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file");
+  run->add_option("--steps", options.steps, "Number of steps instead of the scene's duration");
+  run->add_option("--dt", options.dt, "Length of a step in seconds instead of the scene's");
+  run->add_option("--substeps", options.substeps, "Solver steps within one step (1 to 64)");
+  run->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
+  run->add_flag("-q,--quiet", options.quiet, "No progress bar and no summary");
+  run->callback([&] { exit_code = run_scene(options); });
+}
+
+void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
+  CLI::App* mesh = app.add_subcommand("mesh", "Certificate, mass and hull of a mesh file");
+  mesh->add_option("FILE", options.file, "OBJ, STL, PLY, glTF, FBX, Collada, OFF and more")->required();
+  mesh->add_option("--method", options.method, "How the mass is found")
+      ->check(CLI::IsMember({"solid", "shell", "hull", "voxel"}))
+      ->capture_default_str();
+  mesh->add_option("--density", options.density, "In kg/m^3")->capture_default_str();
+  mesh->add_option("--thickness", options.thickness, "Of a shell, in metres");
+  mesh->add_option("--metres-per-unit", options.metres_per_unit,
+                   "Metres in one unit of the file; default: what the file says");
+  mesh->add_option("--up", options.up, "Axis of the file that points up; default: what the file says")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  mesh->add_flag("--json", options.json, "For programs: one JSON object");
+  mesh->callback([&] { exit_code = inspect_mesh(options); });
+}
+
+struct ReplayOptions {
+  std::string file_a, file_b;
+  int threads = 1;
+};
+
+void add_replay(CLI::App& app, ReplayOptions& options, int& exit_code) {
+  CLI::App* replay = app.add_subcommand("replay", "Look into recordings and simulate them again");
+  replay->require_subcommand(1);
+  CLI::App* info = replay->add_subcommand("info", "What a recording holds");
+  info->add_option("FILE", options.file_a, "Recording (.rrd)")->required();
+  info->callback([&] { exit_code = replay_info(options.file_a); });
+
+  CLI::App* verify = replay->add_subcommand(
+      "verify", "Simulate again from the recording alone and compare every frame, bit by bit");
+  verify->add_option("FILE", options.file_a, "Recording (.rrd)")->required();
+  verify->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
+  verify->callback([&] { exit_code = replay_verify(options.file_a, options.threads); });
+
+  CLI::App* diff = replay->add_subcommand("diff", "Where two recordings part");
+  diff->add_option("A", options.file_a, "Recording (.rrd)")->required();
+  diff->add_option("B", options.file_b, "Recording (.rrd)")->required();
+  diff->callback([&] { exit_code = replay_diff(options.file_a, options.file_b); });
+}
+
+int program(int argc, char** argv) {
+  CLI::App app("Plumb: rigid-body physics for game engines.", "plumb");
+  app.set_version_flag("--version", std::string("plumb ") + PLUMB_VERSION_STRING + " (" +
+                                        kPrecisionName + ", " + kRecording + ")");
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 all is well, 1 a run or check failed, 2 bad input.\n"
+      "Example:    plumb run assets/scenes/default.json -o run.rrd");
+
+  int exit_code = kOk;
+  RunOptions run;
+  MeshOptions mesh;
+  ReplayOptions replay;
+  std::string plan_scene;
+  add_run(app, run, exit_code);
+  add_mesh(app, mesh, exit_code);
+  CLI::App* plan = app.add_subcommand("plan", "Which effects and stages a scene pays for, and why");
+  plan->add_option("SCENE", plan_scene, "Scene file (JSON)")->required();
+  plan->callback([&] { exit_code = print_plan(plan_scene); });
+  add_replay(app, replay, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version come this way too, with 0; all else is the user's to correct.
+    return app.exit(error) == 0 ? kOk : kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace plumb::cli
+
+int main(int argc, char** argv) {
+  try {
+    return plumb::cli::program(argc, argv);
+  } catch (const std::exception& error) {
+    plumb::cli::complain(std::string("unexpected: ") + error.what());
+    return plumb::cli::kFailed;
+  }
+}

@@ -1,0 +1,38 @@
+// plumb plan SCENE
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "cli/commands.h"
+#include "plumb/assets/scene.h"
+#include "plumb/world.h"
+
+namespace plumb::cli {
+
+int print_plan(const std::string& path) {
+  const auto scene = assets::load_scene(path);
+  if (!scene.ok()) {
+    complain(scene.error());
+    return kBadInput;
+  }
+  PhysicsWorld world;
+  const auto instance = assets::instantiate(*scene, world);
+  if (!instance.ok()) {
+    complain(instance.error());
+    return kBadInput;
+  }
+  const StepPlan plan = world.plan();
+  std::size_t width = std::strlen("Item");
+  for (const PlanDecision& decision : plan.decisions) {
+    width = std::max(width, std::strlen(name_of(decision.item)));
+  }
+  const int column = static_cast<int>(width);
+  std::printf("%-*s  Runs  Reason\n", column, "Item");
+  for (const PlanDecision& decision : plan.decisions) {
+    std::printf("%-*s  %-4s  %s\n", column, name_of(decision.item), decision.active ? "yes" : "no",
+                decision.reason.c_str());
+  }
+  return kOk;
+}
+
+}  // namespace plumb::cli

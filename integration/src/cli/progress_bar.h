@@ -1,0 +1,26 @@
+// One line that fills up, drawn only for people: when stderr is a terminal.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace plumb::cli {
+
+class ProgressBar {
+ public:
+  ProgressBar(std::uint64_t total, bool wanted);
+  ~ProgressBar();  // wipes the line
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(std::uint64_t done, double simulated_seconds);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::uint64_t total_;
+  bool visible_;
+  Clock::time_point start_;
+  Clock::time_point next_draw_;
+};
+
+}  // namespace plumb::cli

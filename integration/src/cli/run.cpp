@@ -1,0 +1,116 @@
+// plumb run SCENE
+#include <chrono>
+#include <csignal>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/progress_bar.h"
+#include "cli/recording_file.h"
+#include "cli/run_summary.h"
+#include "plumb/assets/scene.h"
+#include "plumb/world.h"
+
+namespace plumb::cli {
+namespace {
+
+constexpr double kShortestStep = 1e-9;  // [s] as in scene files
+constexpr double kLongestStep = 1e3;    // [s]
+
+// Ctrl-C ends the run early instead of losing its recording.
+volatile std::sig_atomic_t stop_wanted = 0;
+extern "C" void ask_to_stop(int) { stop_wanted = 1; }
+
+std::string apply(const RunOptions& options, assets::Scene& scene) {
+  if (options.dt) {
+    if (!(*options.dt >= kShortestStep && *options.dt <= kLongestStep)) {
+      return "--dt: the step must be from 1e-9 to 1e3 seconds, for example 0.01";
+    }
+    scene.step.dt = *options.dt;
+  }
+  if (options.substeps) {
+    scene.settings.substeps = *options.substeps;
+    if (const Status status = check(scene.settings); !status.ok()) {
+      return std::string("--substeps: ") + status.message;
+    }
+  }
+  return {};
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Steps the world and fills the summary in; an error text if the run had to be given up.
+std::string simulate(PhysicsWorld& world, const assets::Scene& scene, std::uint64_t steps, bool quiet,
+                     const RecordingFile& recording, RunSummary& summary) {
+  summary.begin(world);
+  ProgressBar bar(steps, !quiet);
+  for (std::uint64_t k = 0; k < steps && stop_wanted == 0; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    const StepReport& report = world.step(scene.step.dt);
+    summary.step_seconds += seconds_since(start);
+    if (!report.status.ok()) {
+      return "step " + std::to_string(k + 1) + " was refused: " + report.status.message;
+    }
+    summary.add(world, report);
+    if (std::string problem = recording.problem(); !problem.empty()) return problem;
+    bar.show(k + 1, world.time());
+  }
+  return {};
+}
+
+}  // namespace
+
+int run_scene(const RunOptions& options) {
+  assets::Result<assets::Scene> loaded = assets::load_scene(options.scene);
+  if (!loaded.ok()) {
+    complain(loaded.error());
+    return kBadInput;
+  }
+  assets::Scene& scene = loaded.value();
+  if (const std::string wrong = apply(options, scene); !wrong.empty()) {
+    complain(wrong);
+    return kBadInput;
+  }
+  const std::uint64_t steps = options.steps.value_or(scene.step.count());
+  if (options.steps) scene.step.duration = static_cast<double>(steps) * scene.step.dt;
+
+  const std::unique_ptr<JobSystem> jobs = options.threads == 1 ? nullptr : make_thread_pool(options.threads);
+  PhysicsWorld world;
+  const assets::Result<assets::SceneInstance> instance = assets::instantiate(scene, world);
+  if (!instance.ok()) {
+    complain(instance.error());
+    return kBadInput;
+  }
+  world.set_job_system(jobs.get());
+  if (!options.quiet) {
+    for (const std::string& note : instance->notes) complain("note: " + note);
+  }
+
+  RecordingFile recording;
+  if (!options.output.empty()) {
+    const std::string wrong = recording.open(options.output, scene, *instance, world);
+    if (!wrong.empty()) {
+      complain(wrong);
+      return kBadInput;
+    }
+  }
+
+  std::signal(SIGINT, ask_to_stop);
+  RunSummary summary;
+  std::string wrong = simulate(world, scene, steps, options.quiet, recording, summary);
+  if (recording.is_open()) {
+    const std::string unfinished = recording.finish(world);
+    if (wrong.empty()) wrong = unfinished;
+  }
+  if (!options.quiet) summary.print(scene, *instance, world, recording, options.output);
+  if (!wrong.empty()) complain(wrong);
+  if (summary.quarantined > 0) {
+    complain(std::to_string(summary.quarantined) + " bodies became non-finite and were taken out of the run");
+  }
+  if (stop_wanted != 0) complain("stopped at step " + std::to_string(summary.steps));
+  const bool good = wrong.empty() && summary.quarantined == 0 && stop_wanted == 0;
+  return good ? kOk : kFailed;
+}
+
+}  // namespace plumb::cli

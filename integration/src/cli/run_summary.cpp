@@ -1,0 +1,64 @@
+#include "cli/run_summary.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+namespace plumb::cli {
+namespace {
+
+constexpr double kMillimetres = 1e3;   // per metre
+constexpr double kMilliseconds = 1e3;  // per second
+constexpr double kMicroseconds = 1e6;
+constexpr double kMegabyte = 1e6;      // [bytes]
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+}  // namespace
+
+void RunSummary::begin(const PhysicsWorld& world) {
+  const EnergyReport energy = world.energy();
+  first_energy = last_energy = energy.total();
+  largest_kinetic = energy.kinetic_linear + energy.kinetic_angular;
+}
+
+void RunSummary::add(const PhysicsWorld& world, const StepReport& report) {
+  ++steps;
+  body_steps += report.bodies;
+  contact_points = report.contact_points;
+  most_contact_points = std::max<std::uint64_t>(most_contact_points, report.contact_points);
+  largest_penetration = std::max(largest_penetration, report.largest_penetration);
+  quarantined += report.quarantined;
+  const EnergyReport energy = world.energy();
+  energy_gained += std::max(0.0, energy.total() - last_energy);
+  last_energy = energy.total();
+  largest_kinetic = std::max(largest_kinetic, energy.kinetic_linear + energy.kinetic_angular);
+}
+
+void RunSummary::print(const assets::Scene& scene, const assets::SceneInstance& instance,
+                       const PhysicsWorld& world, const RecordingFile& recording,
+                       const std::string& output) const {
+  const double simulated = static_cast<double>(steps) * scene.step.dt;
+  const double stepping = std::max(0.0, step_seconds - recording.seconds());
+  std::printf("Scene        %s: %zu bodies, %zu meshes\n", scene.name.c_str(), instance.bodies.size(),
+              instance.meshes.size());
+  std::printf("Simulated    %.3f s in %" PRIu64 " steps of %.3f ms, %d substeps each\n", simulated, steps,
+              kMilliseconds * scene.step.dt, scene.settings.substeps);
+  std::printf("Speed        %.1f x real time: %.3f ms a step, %.3f us a body and step\n",
+              ratio(simulated, stepping), kMilliseconds * ratio(stepping, static_cast<double>(steps)),
+              kMicroseconds * ratio(stepping, static_cast<double>(body_steps)));
+  std::printf("Contacts     %" PRIu64 " points at the end, at most %" PRIu64
+              "; deepest overlap %.3f mm\n",
+              contact_points, most_contact_points, kMillimetres * largest_penetration);
+  std::printf("Energy       %.6g J at the start, %.6g J at the end; drift upwards %.3g J"
+              " (%.3g %% of the largest kinetic energy)\n",
+              first_energy, last_energy, energy_gained, 100 * ratio(energy_gained, largest_kinetic));
+  std::printf("State hash   %016" PRIx64 "\n", world.state_hash());
+  if (!recording.is_open() || recording.bytes() == 0) return;
+  std::printf("Recording    %s: %.2f MB, %.1f bytes a body and frame; cost %.3f us a body and frame\n",
+              output.c_str(), static_cast<double>(recording.bytes()) / kMegabyte,
+              ratio(static_cast<double>(recording.bytes()), static_cast<double>(recording.body_steps())),
+              kMicroseconds * recording.seconds_per_body_step());
+}
+
+}  // namespace plumb::cli

@@ -1,0 +1,32 @@
+// What a run was like, gathered step by step and printed at its end.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cli/recording_file.h"
+#include "plumb/assets/scene.h"
+#include "plumb/world.h"
+
+namespace plumb::cli {
+
+struct RunSummary {
+  std::uint64_t steps = 0;
+  double step_seconds = 0;             // [s] wall time in step(), the recorder's share included
+  std::uint64_t body_steps = 0;
+  std::uint64_t contact_points = 0;    // at the end
+  std::uint64_t most_contact_points = 0;
+  double largest_penetration = 0;      // [m]
+  std::uint64_t quarantined = 0;
+  double first_energy = 0;             // [J]
+  double last_energy = 0;              // [J]
+  double energy_gained = 0;            // [J] sum over the steps in which it rose
+  double largest_kinetic = 0;          // [J]
+
+  void begin(const PhysicsWorld& world);
+  void add(const PhysicsWorld& world, const StepReport& report);
+  void print(const assets::Scene& scene, const assets::SceneInstance& instance,
+             const PhysicsWorld& world, const RecordingFile& recording, const std::string& output) const;
+};
+
+}  // namespace plumb::cli

@@ -1,0 +1,42 @@
+// Which effects and stages a step needs, derived from the scene, each with the reason.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plumb/precision.h"
+
+namespace plumb::inline PLUMB_ABI {
+
+enum class PlanItem : unsigned char {
+  Gravity,
+  Forces,
+  Damping,
+  Gyroscopic,
+  MotionLocks,
+  Contacts,
+  Friction,
+  Restitution,
+  Continuous,
+  Sensors,
+  Sleeping,
+  DoublePositions,
+  Count,
+};
+const char* name_of(PlanItem item);
+
+struct PlanDecision {
+  PlanItem item;
+  bool active;
+  std::string reason;  // who called for it, or why nothing does
+};
+
+struct StepPlan {
+  std::vector<PlanDecision> decisions;  // in the order of PlanItem
+
+  [[nodiscard]] bool active(PlanItem item) const {
+    return decisions[static_cast<std::size_t>(item)].active;
+  }
+};
+
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,86 @@
+// Collision shapes. Every shape is given in its collider's frame.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "plumb/math.h"
+#include "plumb/status.h"
+
+namespace plumb::inline PLUMB_ABI {
+
+struct Sphere {
+  Real radius = Real(0.5);  // [m] > 0
+};
+
+struct Box {
+  Vec3 half_extents = Vec3::Constant(Real(0.5));  // [m] > 0 each
+};
+
+// A segment along the local y axis, from -half_length to +half_length, grown by a radius.
+struct Capsule {
+  Real half_length = Real(0.5);  // [m] > 0
+  Real radius = Real(0.25);      // [m] > 0
+};
+
+// Everything with normal . x <= offset is solid. Only for static bodies.
+struct HalfSpace {
+  Vec3 normal = Vec3::UnitY();  // outward, any length > 0
+  Real offset = Real(0);        // [m]
+};
+
+// A closed convex polyhedron: vertices and outward polygon faces, checked once when it is made, then
+// shared by any number of colliders. Hulls of points are built by plumb::assets.
+class HullGeometry {
+ public:
+  struct Edge {
+    std::uint32_t v0, v1;        // vertices; face_a has the edge as v0 -> v1
+    std::uint32_t face_a, face_b;
+  };
+
+  // vertices: [m] finite, each used by at least three faces. face_sizes[k] vertices of
+  // face k stand one after the other in face_vertices, counter-clockwise seen from outside.
+  // Coplanarity and convexity are accepted to 1e-3 of the hull's smallest width.
+  struct Result {
+    std::shared_ptr<const HullGeometry> hull;
+    Status status;
+  };
+  static Result create(std::span<const Vec3> vertices, std::span<const std::uint32_t> face_sizes,
+                       std::span<const std::uint32_t> face_vertices);
+
+  [[nodiscard]] const std::vector<Vec3>& vertices() const { return vertices_; }
+  [[nodiscard]] std::size_t face_count() const { return face_normals_.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> face(std::size_t k) const {
+    return std::span(face_vertices_).subspan(face_starts_[k], face_starts_[k + 1] - face_starts_[k]);
+  }
+  // The edges of a face: the k-th joins its k-th vertex to the next.
+  [[nodiscard]] std::span<const std::uint32_t> face_edges(std::size_t k) const {
+    return std::span(face_edges_).subspan(face_starts_[k], face_starts_[k + 1] - face_starts_[k]);
+  }
+  [[nodiscard]] const std::vector<Vec3>& face_normals() const { return face_normals_; }    // outward, unit
+  [[nodiscard]] const std::vector<Real>& face_offsets() const { return face_offsets_; }    // [m]
+  [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
+  [[nodiscard]] const Vec3& interior_point() const { return interior_point_; }             // [m] centroid
+  [[nodiscard]] Real inner_radius() const { return inner_radius_; }  // [m] distance centroid to nearest face
+  [[nodiscard]] Real outer_radius() const { return outer_radius_; }  // [m] distance centroid to farthest vertex
+
+ private:
+  std::vector<Vec3> vertices_;
+  std::vector<std::uint32_t> face_starts_, face_vertices_, face_edges_;
+  std::vector<Vec3> face_normals_;
+  std::vector<Real> face_offsets_;
+  std::vector<Edge> edges_;
+  Vec3 interior_point_ = Vec3::Zero();
+  Real inner_radius_ = 0, outer_radius_ = 0;
+};
+
+struct ConvexHull {
+  std::shared_ptr<const HullGeometry> geometry;
+};
+
+using Shape = std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace>;
+
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,137 @@
+// The world: bodies, colliders, the step, and what can be asked of it.
+//
+//   plumb::PhysicsWorld world;
+//   auto ball = world.create_body({.pose = {.position = {0, 10, 0}}});
+//   world.create_collider(ball.id, {.shape = plumb::Sphere{0.5f}});
+//   while (running) world.step(1.0 / 60);
+//
+// Not thread-safe, but: all const members may be called from several threads at once while no
+// other member runs. Every mutating call returns a Status and changes nothing when it is not ok.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "plumb/collider.h"
+#include "plumb/events.h"
+#include "plumb/ids.h"
+#include "plumb/inputs.h"
+#include "plumb/job_system.h"
+#include "plumb/observer.h"
+#include "plumb/plan.h"
+#include "plumb/report.h"
+#include "plumb/rigid_body.h"
+#include "plumb/settings.h"
+#include "plumb/snapshot.h"
+
+namespace plumb::inline PLUMB_ABI {
+
+namespace detail {
+struct WorldState;
+}
+
+struct RayHitResult {
+  ColliderId collider;
+  BodyId body;
+  Pos3 point = Pos3::Zero();     // [m] world
+  Vec3 normal = Vec3::UnitY();   // unit, outward
+  Real fraction = 0;             // 0..1 along the ray
+};
+
+class PhysicsWorld {
+ public:
+  // Settings that do not pass check() are replaced by the defaults; see set_settings().
+  explicit PhysicsWorld(const WorldSettings& settings = {});
+  ~PhysicsWorld();
+  PhysicsWorld(PhysicsWorld&&) noexcept;
+  PhysicsWorld& operator=(PhysicsWorld&&) noexcept;
+
+  // --- building --------------------------------------------------------------------------------
+  Created<BodyId> create_body(const RigidBody& body);
+  Status destroy_body(BodyId body);  // with its colliders; what rested on it wakes
+  Created<ColliderId> create_collider(BodyId body, const Collider& collider);
+  Status destroy_collider(ColliderId collider);
+  Status set_settings(const WorldSettings& settings);
+  // Threads for the coming steps; null: the calling thread alone. Not owned, must outlive its use.
+  void set_job_system(JobSystem* jobs);
+
+  // --- acting on bodies ------------------------------------------------------------------------
+  // Forces and torques act throughout the next step and are then forgotten; impulses act at once.
+  // All wake the body. Vectors in world axes; "at" a world point, "at_body_point" a point of B.
+  Status apply_force(BodyId body, const Vec3& force);                            // [N] at the centre of mass
+  Status apply_force_at(BodyId body, const Vec3& force, const Pos3& p_W);         // [N], [m]
+  Status apply_force_at_body_point(BodyId body, const Vec3& force, const Vec3& p_B);
+  Status apply_torque(BodyId body, const Vec3& torque);                          // [N m]
+  Status apply_impulse(BodyId body, const Vec3& impulse);                        // [N s] at the centre of mass
+  Status apply_impulse_at(BodyId body, const Vec3& impulse, const Pos3& p_W);
+  Status apply_impulse_at_body_point(BodyId body, const Vec3& impulse, const Vec3& p_B);
+  Status apply_angular_impulse(BodyId body, const Vec3& impulse);                // [N m s]
+  Status set_pose(BodyId body, const Pose& pose);                                // teleport
+  Status set_linear_velocity(BodyId body, const Vec3& velocity);                 // [m/s]
+  Status set_angular_velocity(BodyId body, const Vec3& velocity);                // [rad/s]
+  Status set_mass(BodyId body, const MassProperties& properties);
+  Status set_awake(BodyId body, bool awake);  // putting to sleep takes the whole island
+
+  // --- stepping --------------------------------------------------------------------------------
+  // dt: [s] finite, >= 0; 0 does nothing. Returns the report, also available as last_report().
+  const StepReport& step(double dt);
+  [[nodiscard]] const StepReport& last_report() const;
+  [[nodiscard]] Events events() const;
+  [[nodiscard]] StepPlan plan() const;  // for the scene as it stands
+  // Observers see every step from now on. Not owned.
+  void attach(StepObserver* observer);
+  void detach(StepObserver* observer);
+
+  // --- reading ---------------------------------------------------------------------------------
+  [[nodiscard]] bool is_valid(BodyId body) const;
+  [[nodiscard]] bool is_valid(ColliderId collider) const;
+  // For handles that are not valid these return default values.
+  [[nodiscard]] BodyState state(BodyId body) const;
+  [[nodiscard]] Pose pose(BodyId body) const;
+  [[nodiscard]] Vec3 linear_velocity(BodyId body) const;    // [m/s] of the centre of mass
+  [[nodiscard]] Vec3 angular_velocity(BodyId body) const;   // [rad/s] world axes
+  [[nodiscard]] Vec3 velocity_at(BodyId body, const Pos3& p_W) const;  // [m/s]
+  [[nodiscard]] Vec3 angular_momentum(BodyId body) const;   // [kg m^2/s] about its centre of mass
+  [[nodiscard]] Pos3 center_of_mass(BodyId body) const;     // [m] world
+  [[nodiscard]] Vec3 last_acceleration(BodyId body) const;  // [m/s^2] from forces and gravity in the last step
+  [[nodiscard]] MassProperties mass_properties(BodyId body) const;  // in the body frame; mass 0 for static
+  [[nodiscard]] bool is_awake(BodyId body) const;
+  [[nodiscard]] std::span<const ColliderId> colliders_of(BodyId body) const;
+  [[nodiscard]] BodyId body_of(ColliderId collider) const;
+  [[nodiscard]] Collider collider(ColliderId collider) const;
+  [[nodiscard]] RigidBody body(BodyId body) const;          // as it could be created again now
+  [[nodiscard]] std::size_t body_count() const;
+  [[nodiscard]] const WorldSettings& settings() const;
+  [[nodiscard]] double time() const;                        // [s]
+  [[nodiscard]] std::uint64_t step_count() const;
+
+  // In bulk, in order of their index; the vector is cleared first and keeps its storage.
+  void copy_body_states(std::vector<BodyState>& out) const;
+  void copy_moved_body_states(std::vector<BodyState>& out) const;  // only those the last step moved
+  void copy_contacts(std::vector<ContactState>& out) const;
+  [[nodiscard]] EnergyReport energy() const;
+
+  // --- queries ---------------------------------------------------------------------------------
+  // The nearest hit of the segment from origin to origin + translation [m] with colliders whose
+  // layers meet `layers`. Sensors are passed by.
+  [[nodiscard]] std::optional<RayHitResult> cast_ray(const Pos3& origin, const Vec3& translation,
+                                                     std::uint32_t layers = 0xffffffffu) const;
+  // Colliders whose bounds meet the box, in order of their index.
+  void overlap_bounds(const Bounds& box, std::vector<ColliderId>& out,
+                      std::uint32_t layers = 0xffffffffu) const;
+
+  // --- replay ----------------------------------------------------------------------------------
+  [[nodiscard]] Snapshot save() const;
+  Status restore(const Snapshot& snapshot);  // observers and job system stay
+  // A 64-bit digest of everything that the next step depends on in bodies and contacts.
+  [[nodiscard]] std::uint64_t state_hash() const;
+  // Does what a recorded call did.
+  Status apply_input(const InputRecord& input);
+
+ private:
+  std::unique_ptr<detail::WorldState> state_;
+};
+
+}  // namespace plumb::inline PLUMB_ABI

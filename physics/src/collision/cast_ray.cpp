@@ -1,0 +1,140 @@
+// Rays against single shapes, in the shape's frame and in double precision. The boundary belongs to the
+// shape: a ray that starts on it starts inside.
+#include "collision/collide.h"
+#include "collision/contact_points.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+struct Ray {
+  NumVec origin, direction;  // [m]
+};
+enum class Outcome { Miss, Inside, Hit };
+struct Hit {
+  Outcome outcome;
+  Num fraction = 0;
+  NumVec normal{0, 1, 0};
+};
+constexpr Hit kMiss{Outcome::Miss};
+constexpr Hit kInside{Outcome::Inside};
+
+// The part of a ray on the inner side of all planes seen so far.
+struct Interval {
+  Num enter = -std::numeric_limits<Num>::infinity();
+  Num leave = std::numeric_limits<Num>::infinity();
+  NumVec normal{0, 1, 0};
+  bool inside = true;  // the origin lies within all planes
+
+  // height: of the origin above the plane; rise: of the whole ray. False when nothing is left.
+  bool cut(Num height, Num rise, NumVec n) {
+    if (height > Num(0)) inside = false;
+    if (rise == Num(0)) return height <= Num(0);
+    const Num t = -height / rise;
+    if (rise < Num(0)) {
+      if (t > enter) enter = t, normal = n;
+    } else if (t < leave) {
+      leave = t;
+    }
+    return enter <= leave;
+  }
+  [[nodiscard]] Hit result() const {
+    if (inside) return kInside;
+    if (!(enter >= Num(0))) return kMiss;
+    return {Outcome::Hit, enter, normal};
+  }
+};
+
+// First root of |o + t d|^2 = r^2, o and d taken as given (perpendicular parts for a cylinder). The
+// point nearest to the centre comes first, so that a far origin costs no digits.
+Hit cast_round(NumVec o, NumVec d, Num radius) {
+  const Num squared = length_squared(d);
+  if (length_squared(o) <= radius * radius) return kInside;
+  if (!(squared > Num(0))) return kMiss;
+  const Num nearest = -dot(o, d) / squared;
+  const NumVec at_nearest = o + nearest * d;
+  const Num room = radius * radius - length_squared(at_nearest);
+  if (!(room >= Num(0))) return kMiss;
+  const Num t = nearest - std::sqrt(room / squared);
+  if (!(t >= Num(0))) return kMiss;
+  return {Outcome::Hit, t, normalized_or(o + t * d, {0, 1, 0})};
+}
+
+Hit cast_capsule(const Ray& ray, Num half_length, Num radius) {
+  const NumVec foot{0, std::clamp(ray.origin.y, -half_length, half_length), 0};
+  if (length_squared(ray.origin - foot) <= radius * radius) return kInside;
+  Hit first = kMiss;
+  const auto consider = [&first](const Hit& hit) {
+    if (hit.outcome == Outcome::Hit && (first.outcome == Outcome::Miss || hit.fraction < first.fraction)) {
+      first = hit;
+    }
+  };
+  const NumVec o{ray.origin.x, 0, ray.origin.z}, d{ray.direction.x, 0, ray.direction.z};
+  const Hit side = cast_round(o, d, radius);
+  if (side.outcome == Outcome::Hit &&
+      std::abs(ray.origin.y + side.fraction * ray.direction.y) <= half_length) {
+    consider(side);
+  }
+  consider(cast_round(ray.origin - NumVec{0, half_length, 0}, ray.direction, radius));
+  consider(cast_round(ray.origin + NumVec{0, half_length, 0}, ray.direction, radius));
+  return first;
+}
+
+Hit cast_box(const Ray& ray, NumVec half) {
+  Interval interval;
+  for (int i = 0; i < 3; ++i) {
+    const Num o = component(ray.origin, i), d = component(ray.direction, i), h = component(half, i);
+    NumVec n{0, 0, 0};
+    set_component(n, i, Num(1));
+    if (!interval.cut(o - h, d, n) || !interval.cut(-o - h, -d, -n)) return kMiss;
+  }
+  return interval.result();
+}
+
+Hit cast_hull(const Ray& ray, const HullGeometry& hull) {
+  Interval interval;
+  for (std::size_t k = 0; k < hull.face_count(); ++k) {
+    const NumVec n = to_num(hull.face_normals()[k]);
+    const Num height = dot(n, ray.origin) - static_cast<Num>(hull.face_offsets()[k]);
+    if (!interval.cut(height, dot(n, ray.direction), n)) return kMiss;
+  }
+  return interval.result();
+}
+
+Hit cast_half_space(const Ray& ray, NumVec normal, Num offset) {
+  const Num height = dot(normal, ray.origin) - offset, rise = dot(normal, ray.direction);
+  if (height <= Num(0)) return kInside;
+  if (!(rise < Num(0))) return kMiss;
+  return {Outcome::Hit, -height / rise, normal};
+}
+
+Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
+  switch (shape.type) {
+    case ShapeType::Sphere: return cast_round(ray.origin, ray.direction, shape.radius);
+    case ShapeType::Capsule: return cast_capsule(ray, shape.half.y, shape.radius);
+    case ShapeType::Box: return cast_box(ray, to_num(shape.half));
+    case ShapeType::Hull: return cast_hull(ray, *shape.hull);
+    case ShapeType::HalfSpace: break;
+  }
+  return cast_half_space(ray, normalized_or(to_num(shape.normal), NumVec{0, 1, 0}),
+                         static_cast<Num>(shape.offset));
+}
+
+}  // namespace
+
+bool cast_ray(const CollisionShape& shape, const Transform& placement, Vec origin, Vec direction,
+              Real max_fraction, RayHit& hit) {
+  const NumRotation q = normalized(NumRotation{placement.q.x, placement.q.y, placement.q.z, placement.q.w});
+  const NumRotation to_shape = conjugate(q);
+  const Ray ray{rotate(to_shape, to_num(origin) - to_num(placement.p)), rotate(to_shape, to_num(direction))};
+  const Hit found = cast_shape(shape, ray);
+  if (found.outcome == Outcome::Miss) return false;
+  if (found.outcome == Outcome::Inside) {
+    hit = {0, cast<Real>(normalized_or(-to_num(direction), NumVec{0, 1, 0}))};
+    return true;
+  }
+  if (!(found.fraction <= static_cast<Num>(max_fraction))) return false;
+  hit = {static_cast<Real>(found.fraction), cast<Real>(normalized_or(rotate(q, found.normal), NumVec{0, 1, 0}))};
+  return true;
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,95 @@
+// Puts a pair into its one order, calls the routine of its kinds, and hands the result back in the
+// caller's order. Swapping the arguments therefore gives the same bits with the normal negated.
+#include "collision/collide.h"
+
+#include "collision/collide_pairs.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+// By first, then second shape, in the order of ShapeType: sphere, capsule, box, hull, half-space.
+constexpr PairRoutine kRoutines[kShapeTypeCount][kShapeTypeCount] = {
+    {collide_spheres, nullptr, nullptr, nullptr, nullptr},
+    {collide_capsule_sphere, collide_capsules, nullptr, nullptr, nullptr},
+    {collide_box_sphere, collide_box_capsule, collide_boxes, collide_polyhedra, nullptr},
+    {collide_hull_sphere, collide_hull_capsule, collide_polyhedra, collide_polyhedra, nullptr},
+    {collide_half_space_sphere, collide_half_space_capsule, collide_half_space_box,
+     collide_half_space_hull, nullptr},
+};
+
+int rank(ShapeType type) {
+  switch (type) {
+    case ShapeType::Sphere: return 0;
+    case ShapeType::Capsule: return 1;
+    case ShapeType::Box:
+    case ShapeType::Hull: return 2;
+    case ShapeType::HalfSpace: return 3;
+  }
+  return 0;
+}
+
+// Squared [m^2]; only compared within a rank.
+Real size_squared(const CollisionShape& shape) {
+  if (shape.type == ShapeType::Hull) return shape.hull->outer_radius() * shape.hull->outer_radius();
+  return length_squared(shape.half) + shape.radius * shape.radius;
+}
+
+// Between shapes of one size the order comes from the placement: along a direction that no scene is
+// likely to be built across, so that the order of two resting bodies holds.
+bool placed_after(const Transform& xa, const Transform& xb) {
+  constexpr NumVec kGeneric{0.3597, 0.8003, 0.4797};
+  const Num along = dot(to_num(xb.p) - to_num(xa.p), kGeneric);
+  if (along != Num(0)) return along < Num(0);
+  const Real ka[7] = {xa.p.x, xa.p.y, xa.p.z, xa.q.x, xa.q.y, xa.q.z, xa.q.w};
+  const Real kb[7] = {xb.p.x, xb.p.y, xb.p.z, xb.q.x, xb.q.y, xb.q.z, xb.q.w};
+  return std::lexicographical_compare(kb, kb + 7, ka, ka + 7);
+}
+
+bool goes_second(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
+                 const Transform& xb) {
+  const int rank_a = rank(a.type), rank_b = rank(b.type);
+  if (rank_a != rank_b) return rank_a < rank_b;
+  const Real size_a = size_squared(a), size_b = size_squared(b);
+  if (size_a != size_b) return size_a < size_b;
+  if (a.type != b.type) return a.type < b.type;
+  return placed_after(xa, xb);
+}
+
+NumRotation unit_rotation(Rotation q) {
+  return normalized(NumRotation{q.x, q.y, q.z, q.w});
+}
+
+}  // namespace
+
+bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
+             const Transform& xb, Real margin, Manifold& out) {
+  out.count = 0;
+  const bool swap = goes_second(a, xa, b, xb);
+  const CollisionShape& first = swap ? b : a;
+  const CollisionShape& second = swap ? a : b;
+  const Transform& x_first = swap ? xb : xa;
+  const Transform& x_second = swap ? xa : xb;
+  const PairRoutine routine =
+      kRoutines[static_cast<int>(first.type)][static_cast<int>(second.type)];
+  if (routine == nullptr) return false;
+
+  const NumVec origin = to_num(x_first.p);
+  Contacts contacts;
+  routine({first, {0, 0, 0}, unit_rotation(x_first.q)},
+          {second, to_num(x_second.p) - origin, unit_rotation(x_second.q)},
+          static_cast<Num>(margin), contacts);
+  if (contacts.count == 0) return false;
+
+  // Turning a normal into world axes leaves it a few roundings away from unit length.
+  const NumVec normal = (Num(1) / length(contacts.normal)) * contacts.normal;
+  out.normal = cast<Real>(swap ? -normal : normal);
+  out.count = contacts.count;
+  for (int i = 0; i < contacts.count; ++i) {
+    const ContactPoint& point = contacts.points[i];
+    out.points[i] = {cast<Real>(origin + point.position), static_cast<Real>(point.separation),
+                     swap ? swapped_name(point.feature) : point.feature};
+  }
+  return true;
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,189 @@
+#include "collision/collision_shape.h"
+
+#include <limits>
+
+#include "collision/collision_tolerances.h"
+#include "math/eigen_bridge.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+constexpr Status kNotFinite{StatusCode::NotFinite, "a shape's sizes must be finite numbers"};
+constexpr Status kNoVolume{StatusCode::BadShape, "a shape's sizes must be greater than zero"};
+constexpr Status kSizeRange{StatusCode::OutOfRange,
+                            "a shape's sizes must lie between 1e-5 m and 1e6 m"};
+constexpr Status kAspect{StatusCode::OutOfRange,
+                         "the largest extent of a shape must be at most 1e5 times the smallest"};
+
+Status check_extents(Real x, Real y, Real z) {
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return kNotFinite;
+  const Num smallest = std::min(x, std::min(y, z)), largest = std::max(x, std::max(y, z));
+  if (!(smallest > Num(0))) return kNoVolume;
+  // Rounding of the limits to single precision must not refuse the limit itself.
+  constexpr Num kRounding = Num(1) + 2 * std::numeric_limits<float>::epsilon();
+  if (smallest * kRounding < kSmallestSize || largest > kLargestSize * kRounding) return kSizeRange;
+  if (largest > smallest * kLargestAspect * kRounding) return kAspect;
+  return {};
+}
+
+struct Check {
+  Status operator()(const Sphere& s) const { return check_extents(s.radius, s.radius, s.radius); }
+  Status operator()(const Box& s) const {
+    return check_extents(s.half_extents.x(), s.half_extents.y(), s.half_extents.z());
+  }
+  Status operator()(const Capsule& s) const {
+    return check_extents(s.half_length, s.radius, s.radius);
+  }
+  Status operator()(const ConvexHull& s) const {
+    if (s.geometry == nullptr) {
+      return {StatusCode::BadShape, "a convex hull needs a geometry from HullGeometry::create"};
+    }
+    const Real inner = s.geometry->inner_radius(), outer = s.geometry->outer_radius();
+    return check_extents(inner, inner, outer);
+  }
+  Status operator()(const HalfSpace& s) const {
+    if (!s.normal.allFinite() || !std::isfinite(s.offset)) return kNotFinite;
+    if (!(s.normal.cwiseAbs().maxCoeff() > Real(0))) {
+      return {StatusCode::BadShape, "a half-space's normal must not be zero"};
+    }
+    return {};
+  }
+};
+
+struct Make {
+  CollisionShape operator()(const Sphere& s) const {
+    CollisionShape shape;
+    shape.type = ShapeType::Sphere;
+    shape.radius = s.radius;
+    return shape;
+  }
+  CollisionShape operator()(const Box& s) const {
+    CollisionShape shape;
+    shape.type = ShapeType::Box;
+    shape.half = to_inner(s.half_extents);
+    return shape;
+  }
+  CollisionShape operator()(const Capsule& s) const {
+    CollisionShape shape;
+    shape.type = ShapeType::Capsule;
+    shape.radius = s.radius;
+    shape.half = {0, s.half_length, 0};
+    return shape;
+  }
+  CollisionShape operator()(const ConvexHull& s) const {
+    CollisionShape shape;
+    shape.type = ShapeType::Hull;
+    shape.hull = s.geometry.get();
+    shape.owner = s.geometry;
+    return shape;
+  }
+  CollisionShape operator()(const HalfSpace& s) const {
+    CollisionShape shape;
+    shape.type = ShapeType::HalfSpace;
+    shape.normal = normalized_or(to_inner(s.normal), Vec{0, 1, 0});
+    shape.offset = s.offset;
+    return shape;
+  }
+};
+
+// The end of a half-space along one axis, if its normal is that axis (to round-off).
+void bound_axis(Real n, Real others, Real plane, Real& lower, Real& upper) {
+  constexpr Real kStraight = 4 * std::numeric_limits<Real>::epsilon();
+  lower = -kUnbounded;
+  upper = kUnbounded;
+  if (others > kStraight) return;
+  (n > Real(0) ? upper : lower) = n * plane;
+}
+
+Aabb half_space_bounds(const CollisionShape& shape, const Transform& x) {
+  const Vec n = rotate(x.q, shape.normal), m = absolute(n);
+  const Real plane = shape.offset + dot(n, x.p);
+  Aabb box;
+  bound_axis(n.x, m.y + m.z, plane, box.lower.x, box.upper.x);
+  bound_axis(n.y, m.z + m.x, plane, box.lower.y, box.upper.y);
+  bound_axis(n.z, m.x + m.y, plane, box.lower.z, box.upper.z);
+  return box;
+}
+
+}  // namespace
+
+CollisionShape make_collision_shape(const Shape& shape) { return std::visit(Make{}, shape); }
+Status check_shape(const Shape& shape) { return std::visit(Check{}, shape); }
+
+Aabb bounds_of(const CollisionShape& shape, const Transform& x) {
+  switch (shape.type) {
+    case ShapeType::HalfSpace: return half_space_bounds(shape, x);
+    case ShapeType::Hull: {
+      const Matrix3<Real> R = to_matrix(x.q);
+      Vec lower{kUnbounded, kUnbounded, kUnbounded}, upper = -lower;
+      for (const Vec3& vertex : shape.hull->vertices()) {
+        const Vec v = R * to_inner(vertex);
+        lower = min_each(lower, v);
+        upper = max_each(upper, v);
+      }
+      return {x.p + lower, x.p + upper};
+    }
+    case ShapeType::Sphere:
+    case ShapeType::Capsule:
+    case ShapeType::Box: break;
+  }
+  const Vec r{shape.radius, shape.radius, shape.radius};
+  if (shape.type == ShapeType::Sphere) return {x.p - r, x.p + r};
+  const Matrix3<Real> R = to_matrix(x.q);
+  const Vec reach = r + Vec{dot(absolute(R.row0), shape.half), dot(absolute(R.row1), shape.half),
+                            dot(absolute(R.row2), shape.half)};
+  return {x.p - reach, x.p + reach};
+}
+
+Real bounding_radius(const CollisionShape& shape) {
+  switch (shape.type) {
+    case ShapeType::HalfSpace: return kUnbounded;
+    case ShapeType::Hull: {
+      Real squared = 0;
+      for (const Vec3& v : shape.hull->vertices()) squared = std::max(squared, v.squaredNorm());
+      return std::sqrt(squared);
+    }
+    case ShapeType::Sphere:
+    case ShapeType::Capsule:
+    case ShapeType::Box: break;
+  }
+  return length(shape.half) + shape.radius;
+}
+
+Real smallest_thickness(const CollisionShape& shape) {
+  switch (shape.type) {
+    case ShapeType::Sphere:
+    case ShapeType::Capsule: return Real(2) * shape.radius;
+    case ShapeType::Box:
+      return Real(2) * std::min(shape.half.x, std::min(shape.half.y, shape.half.z));
+    case ShapeType::Hull: return Real(2) * shape.hull->inner_radius();
+    case ShapeType::HalfSpace: break;
+  }
+  return kUnbounded;
+}
+
+Vec support(const CollisionShape& shape, Vec d) {
+  switch (shape.type) {
+    case ShapeType::Sphere: return {0, 0, 0};
+    case ShapeType::Capsule:
+    case ShapeType::Box:
+      return {d.x < Real(0) ? -shape.half.x : shape.half.x,
+              d.y < Real(0) ? -shape.half.y : shape.half.y,
+              d.z < Real(0) ? -shape.half.z : shape.half.z};
+    case ShapeType::Hull: {
+      Vec farthest = to_inner(shape.hull->vertices().front());
+      Real best = dot(farthest, d);
+      for (const Vec3& vertex : shape.hull->vertices()) {
+        const Vec v = to_inner(vertex);
+        const Real along = dot(v, d);
+        if (along > best) best = along, farthest = v;
+      }
+      return farthest;
+    }
+    case ShapeType::HalfSpace: break;
+  }
+  // The plane's own point: a half-space has no farthest point in any other direction.
+  return shape.offset * shape.normal;
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

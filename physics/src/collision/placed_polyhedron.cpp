@@ -1,0 +1,118 @@
+#include "collision/placed_polyhedron.h"
+
+#include "collision/box_view.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+using Edge = PlacedPolyhedron::Edge;
+
+constexpr std::array<Edge, 12> make_box_edges() {
+  std::array<Edge, 12> edges{};
+  for (int face = 0; face < 6; ++face) {
+    const auto k = static_cast<std::size_t>(face);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int v0 = kBoxTables.face_vertices[k][i], v1 = kBoxTables.face_vertices[k][(i + 1) % 4];
+      Edge& edge = edges[static_cast<std::size_t>(kBoxTables.face_edges[k][i])];
+      if (v0 < v1) {
+        edge.v0 = v0;
+        edge.v1 = v1;
+        edge.face_a = face;
+      } else {
+        edge.face_b = face;
+      }
+    }
+  }
+  return edges;
+}
+constexpr std::array<Edge, 12> kBoxEdges = make_box_edges();
+
+}  // namespace
+
+PlacedPolyhedron::PlacedPolyhedron(const CollisionShape& shape, const NumMatrix& R, NumVec t) {
+  if (shape.type == ShapeType::Box) {
+    hull_ = nullptr;
+    vertex_count_ = 8;
+    face_count_ = 6;
+    edge_count_ = 12;
+    const NumVec half = to_num(shape.half);
+    const BoxView box{t,
+                      {{R.row0.x, R.row1.x, R.row2.x},
+                       {R.row0.y, R.row1.y, R.row2.y},
+                       {R.row0.z, R.row1.z, R.row2.z}},
+                      half};
+    centre_ = t;
+    inner_radius_ = std::min(half.x, std::min(half.y, half.z));
+    outer_radius_ = length(half);
+    for (int i = 0; i < 8; ++i) vertices_[i] = box.vertex(i);
+    for (int k = 0; k < 6; ++k) {
+      normals_[k] = (k % 2 == 0 ? Num(1) : Num(-1)) * box.axes[k / 2];
+      offsets_[k] = dot(normals_[k], t) + component(half, k / 2);
+    }
+    return;
+  }
+  hull_ = shape.hull;
+  vertex_count_ = static_cast<int>(hull_->vertices().size());
+  face_count_ = static_cast<int>(hull_->face_count());
+  edge_count_ = static_cast<int>(hull_->edges().size());
+  centre_ = R * to_num(hull_->interior_point()) + t;
+  inner_radius_ = static_cast<Num>(hull_->inner_radius());
+  outer_radius_ = static_cast<Num>(hull_->outer_radius());
+  const Vec3* vertices = hull_->vertices().data();
+  for (int i = 0; i < vertex_count_; ++i) vertices_[i] = R * to_num(vertices[i]) + t;
+  const Vec3* normals = hull_->face_normals().data();
+  const Real* offsets = hull_->face_offsets().data();
+  for (int k = 0; k < face_count_; ++k) {
+    normals_[k] = R * to_num(normals[k]);
+    offsets_[k] = static_cast<Num>(offsets[k]) + dot(normals_[k], t);
+  }
+}
+
+PlacedPolyhedron::Edge PlacedPolyhedron::edge(int i) const {
+  const auto index = static_cast<std::size_t>(i);
+  if (hull_ == nullptr) return kBoxEdges[index];
+  const HullGeometry::Edge& e = hull_->edges()[index];
+  return {static_cast<int>(e.v0), static_cast<int>(e.v1), static_cast<int>(e.face_a),
+          static_cast<int>(e.face_b)};
+}
+
+int PlacedPolyhedron::face_facing(NumVec d) const {
+  const int farthest = support_index(d);
+  int facing = 0;
+  Num best = Num(-2);
+  for (int i = 0; i < edge_count_; ++i) {
+    const Edge e = edge(i);
+    if (e.v0 != farthest && e.v1 != farthest) continue;
+    for (const int k : {e.face_a, e.face_b}) {
+      const Num along = dot(normals_[k], d);
+      if (along > best) best = along, facing = k;
+    }
+  }
+  return facing;
+}
+
+void PlacedPolyhedron::face(int index, FacePolygon& out) const {
+  const auto k = static_cast<std::size_t>(index);
+  out.name = face_name(index);
+  out.normal = normals_[index];
+  out.offset = offsets_[index];
+  if (hull_ == nullptr) {
+    out.count = 4;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int vertex = kBoxTables.face_vertices[k][i];
+      out.points[i] = vertices_[vertex];
+      out.vertex_names[i] = vertex_name(vertex);
+      out.edge_names[i] = edge_name(kBoxTables.face_edges[k][i]);
+    }
+    return;
+  }
+  const std::span<const std::uint32_t> loop = hull_->face(k), edges = hull_->face_edges(k);
+  out.count = static_cast<int>(loop.size());
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    out.points[i] = vertices_[loop[i]];
+    out.vertex_names[i] = vertex_name(static_cast<int>(loop[i]));
+    out.edge_names[i] = edge_name(static_cast<int>(edges[i]));
+  }
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

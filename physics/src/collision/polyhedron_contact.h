@@ -1,0 +1,107 @@
+// From the axis of greatest separation of two polyhedra to their contact points.
+#pragma once
+
+#include "collision/face_overlay.h"
+#include "collision/gjk.h"
+#include "collision/segment.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+// A direction in which two polyhedra were compared. The faces are those to lay over one another: the
+// reference face and the one that faces it, or those beside two crossing edges.
+struct ContactAxis {
+  enum class Kind { FaceOfA, FaceOfB, Edges };
+  Kind kind;
+  NumVec normal;   // unit, from A to B
+  Num separation;  // [m] of the shapes along it
+  int face_a, face_b;
+  Segment edge_a, edge_b;       // only for Edges
+  FeatureName name_a, name_b;   // only for Edges
+};
+
+// Halfway between the supporting lines of two edges.
+void add_edge_contact(const ContactAxis& axis, Contacts& out);
+// Whether the closest points of the two lines lie within both edges (to round-off).
+bool edges_cross(const ContactAxis& axis);
+
+// A and B give, in one frame: face(index, FacePolygon&), face_facing(d), support_index(d), vertex(i).
+template <class A, class B>
+struct PolyhedronContact {
+  const A& a;
+  const B& b;
+  Num margin;     // [m]
+  Num thickness;  // [m] half thickness of the thinner one: the scale of the tolerances
+  Num size;       // [m] of the larger one
+  NumVec towards;  // from about the middle of A to that of B
+  Contacts& out;
+
+  // `preferred` is `best` or not much worse. A face contact counts only if its deepest point is as deep
+  // as the best axis says: a face beside which the shapes meet has points that lie farther apart.
+  void along(const ContactAxis& preferred, const ContactAxis& best) {
+    const bool apart = best.separation > Num(0);
+    const Num slack = (apart ? kAttained : kFacePreference) * thickness;
+    const Num limit = best.separation + slack;
+    if (overlay(preferred.normal, preferred.separation, preferred.face_a, preferred.face_b, limit)) return;
+    if (&preferred != &best && overlay(best.normal, best.separation, best.face_a, best.face_b, limit)) return;
+    if (best.kind == ContactAxis::Kind::Edges && (!apart || edges_cross(best))) {
+      add_edge_contact(best, out);
+      return;
+    }
+    if (!apart) {
+      add_vertex_contact(best);
+    } else {
+      closest_points_contact(best);
+    }
+  }
+
+ private:
+  bool overlay(NumVec normal, Num separation, int face_a, int face_b, Num limit) {
+    FacePolygon polygon_a, polygon_b;
+    a.face(face_a, polygon_a);
+    b.face(face_b, polygon_b);
+    if (dot(polygon_a.normal, normal) < kSteepFace || dot(polygon_b.normal, normal) > -kSteepFace) {
+      return false;
+    }
+    ContactCandidates candidates;
+    candidates.count = 0;
+    const Num smallest =
+        overlay_faces(polygon_a, polygon_b, normal, separation, kClipBand * thickness, margin, candidates);
+    if (!(smallest <= limit)) return false;
+    if (candidates.count > 0) choose_points(candidates, normal, kDeepestTie * thickness, out);
+    return true;
+  }
+
+  void add_vertex_contact(const ContactAxis& axis) {
+    out.normal = axis.normal;
+    const Num half_way = Num(0.5) * axis.separation;
+    if (axis.kind == ContactAxis::Kind::FaceOfA) {
+      const int i = b.support_index(-axis.normal);
+      out.add(b.vertex(i) - half_way * axis.normal, axis.separation,
+              pair_name(face_name(axis.face_a), vertex_name(i)));
+    } else {
+      const int i = a.support_index(axis.normal);
+      out.add(a.vertex(i) + half_way * axis.normal, axis.separation,
+              pair_name(vertex_name(i), face_name(axis.face_b)));
+    }
+  }
+
+  // Corners or edges met outside of every face: the direction is that of the closest points.
+  void closest_points_contact(const ContactAxis& best) {
+    const GjkResult closest =
+        gjk_distance([this](NumVec d) { return a.vertex(a.support_index(d)); },
+                     [this](NumVec d) { return b.vertex(b.support_index(d)); }, towards, size);
+    if (closest.overlap) {  // touching to round-off
+      add_vertex_contact(best);
+      return;
+    }
+    if (!(closest.distance <= margin)) return;
+    const NumVec n = closest.normal;
+    const Num limit = closest.distance + kAttained * thickness;
+    if (overlay(n, closest.distance, a.face_facing(n), b.face_facing(-n), limit)) return;
+    out.normal = n;
+    out.add(Num(0.5) * (closest.on_a + closest.on_b), closest.distance,
+            pair_name(vertex_name(a.support_index(n)), vertex_name(b.support_index(-n))));
+  }
+};
+
+}  // namespace plumb::inline PLUMB_ABI::detail

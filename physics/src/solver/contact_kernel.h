@@ -1,0 +1,156 @@
+// The arithmetic of one contact row: warm start, one pass over its points, and what a pass needs.
+// Written once for any number type T; nothing here branches on the scene.
+#pragma once
+
+#include "solver/contact_row.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+// Velocities of the two bodies of a row while it is being solved.
+template <class T>
+struct RowVelocities {
+  Vector3<T> va, wa, vb, wb;
+};
+
+// Applies the wrench (force impulse P at c, torque impulse M) to B and its opposite to A.
+template <class T>
+inline void apply_wrench(const ContactRow<T>& row, Vector3<T> P, Vector3<T> M, RowVelocities<T>& u) {
+  u.va -= multiply_each(row.inverse_mass_a, P);
+  u.wa -= row.inverse_inertia_a * (cross(row.arm_a, P) + M);
+  u.vb += multiply_each(row.inverse_mass_b, P);
+  u.wb += row.inverse_inertia_b * (cross(row.arm_b, P) + M);
+}
+
+// The wrench of the row's present impulses, normal and friction.
+template <class T>
+inline void row_wrench(const ContactRow<T>& row, Vector3<T>& P, Vector3<T>& M) {
+  T p0 = T(0), p1 = T(0), p2 = T(0), f1 = T(0), f2 = T(0), f3 = T(0);
+  for (int i = 0; i < row.count; ++i) {
+    const auto& point = row.points[i];
+    p0 += point.impulse;
+    p1 += point.b * point.impulse;
+    p2 -= point.a * point.impulse;
+    f1 += point.friction1;
+    f2 += point.friction2;
+    f3 += point.a * point.friction2 - point.b * point.friction1;
+  }
+  P = p0 * row.n + f1 * row.t1 + f2 * row.t2;
+  M = p1 * row.t1 + p2 * row.t2 + f3 * row.n;
+}
+
+template <class T>
+inline void warm_start(const ContactRow<T>& row, RowVelocities<T>& u) {
+  Vector3<T> P, M;
+  row_wrench(row, P, M);
+  apply_wrench(row, P, M, u);
+}
+
+// How far the separations have changed since the step began: point i by D0 + a_i E1 + b_i E2. Exact
+// for any rotation about the moving centres (the normal stays that of the step's start).
+template <class T>
+struct SeparationChange {
+  T D0, E1, E2;
+};
+template <class T>
+inline SeparationChange<T> separation_change(const ContactRow<T>& row, const BodyDelta& da,
+                                             const BodyDelta& db) {
+  // n . (rotate(q, t) - t) = 2 (n.u)(t.u) + 2 w n.(u x t) for the delta rotation q = (u, w).
+  const auto tilt = [&](const Rotation& q, Vector3<T> t) {
+    const Vector3<T> u{q.x, q.y, q.z};
+    return T(2) * (dot(row.n, u) * dot(t, u) + q.w * dot(row.n, cross(u, t)) -
+                   dot(u, u) * dot(row.n, t));
+  };
+  return {dot(row.n, db.dp - da.dp) + tilt(db.dq, row.core_b) - tilt(da.dq, row.core_a),
+          tilt(db.dq, row.t1) - tilt(da.dq, row.t1), tilt(db.dq, row.t2) - tilt(da.dq, row.t2)};
+}
+
+// One pass of sequential impulses over the normal rows. With `use_bias` overlap is worked off softly;
+// without, the velocities are only made not to approach (the relaxing pass) [Catto 2024].
+template <class T>
+inline void solve_normal(ContactRow<T>& row, const SeparationChange<T>& change, T inverse_h,
+                         bool use_bias, RowVelocities<T>& u) {
+  T u0 = dot(row.n, u.vb + cross(u.wb, row.arm_b) - u.va - cross(u.wa, row.arm_a));
+  const Vector3<T> w = u.wb - u.wa;
+  T u1 = dot(row.t1, w), u2 = dot(row.t2, w);
+  T p0 = T(0), p1 = T(0), p2 = T(0);
+  for (int i = 0; i < row.count; ++i) {
+    auto& point = row.points[i];
+    const T s = point.separation + change.D0 + point.a * change.E1 + point.b * change.E2;
+    T bias = T(0), mass_scale = T(1), impulse_scale = T(0);
+    if (s > T(0)) {
+      bias = s * inverse_h;  // may close the gap, not more
+    } else if (use_bias) {
+      bias = std::max(row.bias_rate * s, -row.push_speed_now);
+      mass_scale = row.mass_scale;
+      impulse_scale = row.impulse_scale;
+    }
+    const T vn = u0 + point.b * u1 - point.a * u2;
+    const T wanted = -point.normal_mass * mass_scale * (vn + bias) - impulse_scale * point.impulse;
+    const T total = std::max(point.impulse + wanted, T(0));
+    const T l = total - point.impulse;
+    point.impulse = total;
+    const T l1 = point.b * l, l2 = -point.a * l;
+    p0 += l;
+    p1 += l1;
+    p2 += l2;
+    u0 += row.K_normal.xx * l + row.K_normal.xy * l1 + row.K_normal.xz * l2;
+    u1 += row.K_normal.xy * l + row.K_normal.yy * l1 + row.K_normal.yz * l2;
+    u2 += row.K_normal.xz * l + row.K_normal.yz * l1 + row.K_normal.zz * l2;
+  }
+  apply_wrench(row, p0 * row.n, p1 * row.t1 + p2 * row.t2, u);
+}
+
+// Coulomb friction on the true circular cone, point by point: if the impulse that stops the slip lies
+// inside the disc of radius mu * normal impulse it is taken (stick). Otherwise a projected step with
+// the larger eigenvalue of the response follows, whose fixed point opposes the slip exactly,
+// in every direction alike.
+// Returns the normal impulse that slides in `sliding`, and all of it in `load`.
+template <class T>
+inline void solve_friction(ContactRow<T>& row, RowVelocities<T>& u, T& load, T& sliding) {
+  const Vector3<T> v = u.vb + cross(u.wb, row.arm_b) - u.va - cross(u.wa, row.arm_a);
+  T x = dot(row.t1, v), y = dot(row.t2, v), z = dot(row.n, u.wb - u.wa);
+  T p0 = T(0), p1 = T(0), p2 = T(0);
+  load = T(0);
+  sliding = T(0);
+  for (int i = 0; i < row.count; ++i) {
+    auto& point = row.points[i];
+    const T limit = row.friction * point.impulse;
+    const T v1 = x - point.b * z, v2 = y + point.a * z;
+    const T determinant = point.k11 * point.k22 - point.k12 * point.k12;
+    T f1 = T(0), f2 = T(0);
+    T share = T(1);
+    if (limit > T(0) && determinant > T(0)) {
+      f1 = point.friction1 - (point.k22 * v1 - point.k12 * v2) / determinant;
+      f2 = point.friction2 - (point.k11 * v2 - point.k12 * v1) / determinant;
+      const T size = std::sqrt(f1 * f1 + f2 * f2);
+      if (size > limit) {
+        const T half_trace = T(0.5) * (point.k11 + point.k22);
+        const T half_difference = T(0.5) * (point.k11 - point.k22);
+        const T k = half_trace + std::sqrt(half_difference * half_difference + point.k12 * point.k12);
+        f1 = point.friction1 - v1 / k;
+        f2 = point.friction2 - v2 / k;
+        const T slide = std::sqrt(f1 * f1 + f2 * f2);
+        const T scale = slide > limit ? limit / slide : T(1);
+        f1 *= scale;
+        f2 *= scale;
+      } else {
+        share = size / limit;
+      }
+    }
+    load += point.impulse;
+    sliding += share * point.impulse;
+    const T d1 = f1 - point.friction1, d2 = f2 - point.friction2;
+    point.friction1 = f1;
+    point.friction2 = f2;
+    const T d3 = point.a * d2 - point.b * d1;
+    p0 += d1;
+    p1 += d2;
+    p2 += d3;
+    x += row.K_friction.xx * d1 + row.K_friction.xy * d2 + row.K_friction.xz * d3;
+    y += row.K_friction.xy * d1 + row.K_friction.yy * d2 + row.K_friction.yz * d3;
+    z += row.K_friction.xz * d1 + row.K_friction.yz * d2 + row.K_friction.zz * d3;
+  }
+  apply_wrench(row, p0 * row.t1 + p1 * row.t2, p2 * row.n, u);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

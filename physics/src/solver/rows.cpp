@@ -1,0 +1,196 @@
+// Rows: from a manifold and two bodies to the numbers that the solver iterates on.
+#include <cmath>
+
+#include "motion/body_motion.h"
+#include "world/tolerances.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+Softness make_softness(Real frequency, Real damping_ratio, Real h) {
+  constexpr Real kTwoPi = Real(6.283185307179586476925);
+  const Real w = kTwoPi * frequency;
+  const Real a1 = Real(2) * damping_ratio + h * w;
+  const Real a2 = h * w * a1;
+  const Real a3 = Real(1) / (Real(1) + a2);
+  return {w / a1, a2 * a3, a3};
+}
+
+namespace {
+
+struct RowContext {
+  const WorldState& world;
+  Softness soft, stiff;  // between dynamic bodies; against static or kinematic ones
+};
+
+// x^T M y
+Real bilinear(const Symmetric3<Real>& M, Vec x, Vec y) { return dot(x, M * y); }
+Real bilinear(Vec diagonal, Vec x, Vec y) { return dot(x, multiply_each(diagonal, y)); }
+
+// K of the normal space (u0, u1, u2) and of the friction space (x, y, z): the velocity change per unit
+// generalised impulse, summed over both bodies.
+void add_response(ContactRow<Real>& row, Vec arm, Vec inverse_mass,
+                  const Symmetric3<Real>& inverse_inertia) {
+  const Vec rn = cross(arm, row.n), r1 = cross(arm, row.t1), r2 = cross(arm, row.t2);
+  const auto& I = inverse_inertia;
+  row.K_normal.xx += bilinear(inverse_mass, row.n, row.n) + bilinear(I, rn, rn);
+  row.K_normal.xy += bilinear(I, rn, row.t1);
+  row.K_normal.xz += bilinear(I, rn, row.t2);
+  row.K_normal.yy += bilinear(I, row.t1, row.t1);
+  row.K_normal.yz += bilinear(I, row.t1, row.t2);
+  row.K_normal.zz += bilinear(I, row.t2, row.t2);
+  row.K_friction.xx += bilinear(inverse_mass, row.t1, row.t1) + bilinear(I, r1, r1);
+  row.K_friction.yy += bilinear(inverse_mass, row.t2, row.t2) + bilinear(I, r2, r2);
+  row.K_friction.xy += bilinear(inverse_mass, row.t1, row.t2) + bilinear(I, r1, r2);
+  row.K_friction.xz += bilinear(I, r1, row.n);
+  row.K_friction.yz += bilinear(I, r2, row.n);
+  row.K_friction.zz += bilinear(I, row.n, row.n);
+}
+
+void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, bool warm) {
+  for (int i = 0; i < row.count; ++i) {
+    auto& point = row.points[i];
+    const ManifoldPoint& from = pair.manifold.points[i];
+    const Vec offset = from.position - center;
+    point = {};
+    point.a = dot(row.t1, offset);
+    point.b = dot(row.t2, offset);
+    point.separation = from.separation;
+    const Real a = point.a, b = point.b;
+    const auto& K = row.K_normal;
+    const Real response = K.xx + b * b * K.yy + a * a * K.zz + Real(2) * (b * K.xy - a * K.xz - a * b * K.yz);
+    point.normal_mass = response > Real(0) ? Real(1) / response : Real(0);
+    const auto& F = row.K_friction;
+    point.k11 = F.xx - Real(2) * b * F.xz + b * b * F.zz;
+    point.k12 = F.xy + a * F.xz - b * F.yz - a * b * F.zz;
+    point.k22 = F.yy + Real(2) * a * F.yz + a * a * F.zz;
+    if (warm) {
+      point.impulse = pair.normal_impulse[i];
+      point.friction1 = dot(row.t1, pair.friction_impulse[i]);
+      point.friction2 = dot(row.t2, pair.friction_impulse[i]);
+    }
+  }
+}
+
+void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t pair_index) {
+  const WorldState& world = context.world;
+  const BodyStore& bodies = world.bodies;
+  const Pair& pair = world.pairs[pair_index];
+  const BodyInfo& info_a = bodies.info[pair.body_a];
+  const BodyInfo& info_b = bodies.info[pair.body_b];
+  row = {};
+  row.pair = pair_index;
+  row.body_a = info_a.dense;
+  row.body_b = info_b.dense;
+  row.count = pair.manifold.count;
+  row.n = pair.manifold.normal;
+  tangent_frame(row.n, row.t1, row.t2);
+
+  Vec center{0, 0, 0};
+  for (int i = 0; i < row.count; ++i) center += pair.manifold.points[i].position;
+  center = (Real(1) / static_cast<Real>(row.count)) * center;
+  const Vec from_a_to_b = cast<Real>(bodies.pose[row.body_b].x - bodies.pose[row.body_a].x);
+  row.arm_a = pair.relative_to_b ? center + from_a_to_b : center;
+  row.arm_b = pair.relative_to_b ? center : center - from_a_to_b;
+  row.core_a = row.arm_a - world.colliders.info[pair.collider_a()].shape.radius * row.n;
+  row.core_b = row.arm_b + world.colliders.info[pair.collider_b()].shape.radius * row.n;
+
+  const bool a_moves = bodies.mass[row.body_a].mass > Real(0);
+  const bool b_moves = bodies.mass[row.body_b].mass > Real(0);
+  if (a_moves) {
+    row.inverse_mass_a = bodies.mass[row.body_a].inverse_mass;
+    row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
+    add_response(row, row.arm_a, row.inverse_mass_a, row.inverse_inertia_a);
+  }
+  if (b_moves) {
+    row.inverse_mass_b = bodies.mass[row.body_b].inverse_mass;
+    row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
+    add_response(row, row.arm_b, row.inverse_mass_b, row.inverse_inertia_b);
+  }
+  make_points(row, pair, center, world.settings.warm_starting);
+
+  row.friction = pair.friction;
+  row.restitution = pair.restitution;
+  const Softness& softness = a_moves && b_moves ? context.soft : context.stiff;
+  row.bias_rate = softness.bias_rate;
+  row.mass_scale = softness.mass_scale;
+  row.impulse_scale = softness.impulse_scale;
+  row.push_speed = tolerance::kPushRate * (pair.slop / tolerance::kSlopFraction);
+  row.push_speed_now = row.push_speed;
+  row.at_rest = pair.at_rest;
+
+  // As the step begins: how fast do the surfaces approach, and what does a substep add to that?
+  const BodyVelocity& va = bodies.velocity[row.body_a];
+  const BodyVelocity& vb = bodies.velocity[row.body_b];
+  for (int i = 0; i < row.count; ++i) {
+    const Vec place = row.points[i].a * row.t1 + row.points[i].b * row.t2;
+    const Vec v = vb.v + cross(vb.w, row.arm_b + place) - va.v - cross(va.w, row.arm_a + place);
+    row.approach_speed = std::max(row.approach_speed, -dot(row.n, v));
+  }
+  const Vec a_a = a_moves ? world.substep[row.body_a].acceleration : Vec{0, 0, 0};
+  const Vec a_b = b_moves ? world.substep[row.body_b].acceleration : Vec{0, 0, 0};
+  row.cut_unit = std::max(length(a_a), length(a_b)) * world.h;
+  const auto& collider_a = world.colliders.info[pair.collider_a()];
+  const auto& collider_b = world.colliders.info[pair.collider_b()];
+  if (row.restitution > Real(0) && collider_a.shape.type == ShapeType::Sphere &&
+      collider_b.shape.type == ShapeType::Sphere && length_squared(collider_a.in_body.p) == Real(0) &&
+      length_squared(collider_b.in_body.p) == Real(0)) {
+    row.exact_spheres = true;
+    row.radius_a = collider_a.shape.radius;
+    row.radius_b = collider_b.shape.radius;
+  }
+  // Bodies that do not move in this step are all the world itself, dense 0.
+  if (row.body_a >= bodies.awake_end) row.body_a = 0;
+  if (row.body_b >= bodies.awake_end) row.body_b = 0;
+}
+
+}  // namespace
+
+void build_rows(WorldState& world) {
+  const std::uint32_t count = static_cast<std::uint32_t>(world.row_order.size());
+  const Real frequency = std::min(world.settings.contact_frequency, Real(0.25) / world.h);
+  const RowContext context{
+      world, make_softness(frequency, world.settings.contact_damping_ratio, world.h),
+      make_softness(tolerance::kStaticStiffness * frequency, world.settings.contact_damping_ratio,
+                    world.h)};
+  BodyStore& bodies = world.bodies;
+  world.delta.resize(bodies.dense_count());
+  world.substep.resize(bodies.dense_count());
+  world.delta[0] = {};
+  world.substep[0] = {};
+  // Bodies first: what a row reads of them, and which of them are held by a row.
+  parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end; ++i) {
+      world.delta[i] = {};
+      SubstepBody& s = world.substep[i];
+      s = {};
+      const BodyMass& m = bodies.mass[i];
+      s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
+      if (m.mass > Real(0)) {
+        const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
+        // A locked axis feels no gravity.
+        s.acceleration += Vec{m.inverse_mass.x > Real(0) ? g.x : Real(0),
+                              m.inverse_mass.y > Real(0) ? g.y : Real(0),
+                              m.inverse_mass.z > Real(0) ? g.z : Real(0)};
+        s.I = world_inertia(m, bodies.pose[i].q);
+        s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
+      }
+    }
+  });
+  for (const std::uint32_t i : world.touching) {
+    const Pair& pair = world.pairs[i];
+    const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
+    if (bodies.mass[a].mass > Real(0)) world.substep[a].constrained = true;
+    if (bodies.mass[b].mass > Real(0)) world.substep[b].constrained = true;
+  }
+  world.rows.resize(count);
+  parallel_for(world, count, tolerance::kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) build_row(context, world.rows[i], world.row_order[i]);
+  });
+  world.bouncing_rows.clear();
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

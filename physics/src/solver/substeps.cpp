@@ -1,0 +1,263 @@
+// The substeps: known forces, bounces, contacts, motion, relaxation [Catto 2024].
+//
+//   for each substep of length h
+//     impacts     bounces at their own time inside the substep (impacts.cpp)
+//     kick        v += h a, L += h torque; damping exact
+//     warm start  the impulses of the last substep
+//     solve       one pass, overlap worked off softly
+//     drift       dp += h v; rotation by the torque-free flow with L fixed
+//     relax       one pass without the bias: the velocities that push out overlap do not stay
+//     trapezoid   dp += theta (h/2)(v_start - v_end): free fall, sliding and rolling become exact to
+//                 second order; theta is the share of the substep during which contacts slid
+#include <cmath>
+
+#include "motion/body_motion.h"
+#include "solver/contact_kernel.h"
+#include "world/tolerances.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+void run_impacts(WorldState& world);
+
+namespace {
+
+template <class Task>
+void for_awake_bodies(WorldState& world, Task&& task) {
+  const std::uint32_t first = world.bodies.awake_begin;
+  parallel_for(world, world.bodies.awake_end - first, tolerance::kBodyGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = first + begin; i < first + end; ++i) task(i);
+  });
+}
+
+// Rows of one colour share no dynamic body, so they may run in any order, or at once.
+template <class Task>
+void for_rows_by_color(WorldState& world, Task&& task) {
+  for (const ColorRange color : world.colors) {
+    parallel_for(world, color.end - color.begin, tolerance::kRowGrain,
+                 [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = color.begin + begin; i < color.begin + end; ++i) task(world.rows[i]);
+    });
+  }
+}
+
+RowVelocities<Real> read_velocities(const WorldState& world, const ContactRow<Real>& row) {
+  const BodyVelocity& a = world.bodies.velocity[row.body_a];
+  const BodyVelocity& b = world.bodies.velocity[row.body_b];
+  return {a.v, a.w, b.v, b.w};
+}
+// Bodies that are not dynamic may stand in many rows of a colour; they are never written.
+void write_velocities(WorldState& world, const ContactRow<Real>& row, const RowVelocities<Real>& u) {
+  if (world.substep[row.body_a].constrained) {
+    world.bodies.velocity[row.body_a].v = u.va;
+    world.bodies.velocity[row.body_a].w = u.wa;
+  }
+  if (world.substep[row.body_b].constrained) {
+    world.bodies.velocity[row.body_b].v = u.vb;
+    world.bodies.velocity[row.body_b].w = u.wb;
+  }
+}
+
+Rotation orientation_now(const WorldState& world, std::uint32_t i) {
+  return world.delta[i].dq * world.bodies.pose[i].q;
+}
+
+void kick(WorldState& world, std::uint32_t i) {
+  SubstepBody& s = world.substep[i];
+  if (!s.constrained) return;
+  BodyVelocity& velocity = world.bodies.velocity[i];
+  const BodyForce& force = world.bodies.force[i];
+  Vec& L = world.bodies.momentum[i].L;
+  s.v_start = velocity.v;
+  s.L_start = L;
+  if (force.linear_damping > Real(0)) {
+    const DampedMotion damped = damped_motion(force.linear_damping, world.h);
+    velocity.v = damped.decay * velocity.v + damped.gain * s.acceleration;
+  } else {
+    velocity.v += world.h * s.acceleration;
+  }
+  if (force.angular_damping > Real(0)) {
+    const DampedMotion damped = damped_motion(force.angular_damping, world.h);
+    L = damped.decay * L + damped.gain * force.torque;
+  } else {
+    L += world.h * force.torque;
+  }
+  velocity.w = angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), L);
+  s.w_in = velocity.w;
+}
+
+// What the rows did to w becomes angular momentum, by the same inertia with which they saw the body.
+void collect_momentum(WorldState& world, std::uint32_t i) {
+  SubstepBody& s = world.substep[i];
+  world.bodies.momentum[i].L += s.I * (world.bodies.velocity[i].w - s.w_in);
+}
+
+void drift(WorldState& world, std::uint32_t i) {
+  BodyVelocity& velocity = world.bodies.velocity[i];
+  BodyDelta& delta = world.delta[i];
+  SubstepBody& s = world.substep[i];
+  if (s.constrained) {
+    collect_momentum(world, i);
+    delta.dp += world.h * velocity.v;
+    Rotation q = orientation_now(world, i);
+    Vec& L = world.bodies.momentum[i].L;
+    turn_freely(world.settings.rotation, world.bodies.mass[i], q, L, world.h);
+    delta.dq = normalized(q * conjugate(world.bodies.pose[i].q));
+    velocity.w = angular_velocity_of(world.bodies.mass[i], q, L);
+    s.w_in = velocity.w;
+    s.load = Real(0);
+    s.sliding_load = Real(0);
+  } else if (!(world.bodies.mass[i].mass > Real(0))) {  // kinematic: as told
+    delta.dp += world.h * velocity.v;
+    delta.dq = normalized(from_rotation_vector(world.h * velocity.w) * delta.dq);
+  }
+}
+
+void finish_substep(WorldState& world, std::uint32_t i) {
+  SubstepBody& s = world.substep[i];
+  if (!s.constrained) return;
+  collect_momentum(world, i);
+  const bool changed = s.contacts_changed;
+  s.contacts_changed = false;
+  s.bounced = false;
+  if (changed) return;
+  const Real theta = s.load > Real(0) ? s.sliding_load / s.load : Real(1);
+  const Real weight = Real(0.5) * world.h * theta;
+  BodyDelta& delta = world.delta[i];
+  delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
+  const Vec lost = s.L_start - world.bodies.momentum[i].L;
+  if (length_squared(lost) > Real(0) && world.settings.rotation == RotationMethod::Exact) {
+    const Vec turn = weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost);
+    delta.dq = normalized(from_rotation_vector(turn) * delta.dq);
+  }
+}
+
+// Which points carry load; a change marks both bodies, whose velocities then jump rather than ramp.
+void note_loaded_points(WorldState& world, ContactRow<Real>& row) {
+  const auto weight = [&](std::uint32_t i) {
+    return world.bodies.mass[i].mass * length(world.substep[i].acceleration);
+  };
+  const Real negligible =
+      tolerance::kLoadedFraction * world.h * std::max(weight(row.body_a), weight(row.body_b));
+  unsigned loaded = 0;
+  for (int i = 0; i < row.count; ++i)
+    if (row.points[i].impulse > negligible) loaded |= 1u << i;
+  if (loaded != row.loaded) {
+    row.loaded = loaded;
+    if (world.substep[row.body_a].constrained) world.substep[row.body_a].contacts_changed = true;
+    if (world.substep[row.body_b].constrained) world.substep[row.body_b].contacts_changed = true;
+  }
+}
+
+void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
+  if (!row.skip) {
+    const auto change =
+        separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
+    RowVelocities<Real> u = read_velocities(world, row);
+    Real load = 0, sliding = 0;
+    solve_normal(row, change, inverse_h, false, u);
+    solve_friction(row, u, load, sliding);
+    write_velocities(world, row, u);
+    if (world.substep[row.body_a].constrained) {
+      world.substep[row.body_a].load += load;
+      world.substep[row.body_a].sliding_load += sliding;
+    }
+    if (world.substep[row.body_b].constrained) {
+      world.substep[row.body_b].load += load;
+      world.substep[row.body_b].sliding_load += sliding;
+    }
+    row.at_rest = load > Real(0);
+  }
+  for (int i = 0; i < row.count; ++i) {
+    row.points[i].impulse_sum += row.points[i].impulse;
+    row.points[i].friction1_sum += row.points[i].friction1;
+    row.points[i].friction2_sum += row.points[i].friction2;
+  }
+  note_loaded_points(world, row);
+}
+
+void store_impulses(WorldState& world) {
+  parallel_for(world, static_cast<std::uint32_t>(world.rows.size()), tolerance::kRowGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const ContactRow<Real>& row = world.rows[k];
+      Pair& pair = world.pairs[row.pair];
+      pair.at_rest = row.at_rest;
+      for (int i = 0; i < row.count; ++i) {
+        const auto& point = row.points[i];
+        pair.normal_impulse[i] = point.impulse;
+        pair.friction_impulse[i] = point.friction1 * row.t1 + point.friction2 * row.t2;
+        pair.step_normal_impulse[i] += point.impulse_sum;
+        pair.step_friction_impulse[i] += point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
+      }
+    }
+  });
+}
+
+// Bodies that no row holds fly the whole step at once, exactly: x = v t + a t^2/2 (or its damped
+// form); half the torque, the torque-free flow, the other half.
+void fly(WorldState& world, std::uint32_t i) {
+  SubstepBody& s = world.substep[i];
+  const BodyMass& mass = world.bodies.mass[i];
+  if (s.constrained || !(mass.mass > Real(0))) return;
+  BodyVelocity& velocity = world.bodies.velocity[i];
+  const BodyForce& force = world.bodies.force[i];
+  BodyDelta& delta = world.delta[i];
+  const Real dt = world.dt;
+  if (force.linear_damping > Real(0)) {
+    const DampedMotion damped = damped_motion(force.linear_damping, dt);
+    delta.dp = damped.gain * velocity.v + damped.lift * s.acceleration;
+    velocity.v = damped.decay * velocity.v + damped.gain * s.acceleration;
+  } else {
+    delta.dp = dt * (velocity.v + (Real(0.5) * dt) * s.acceleration);
+    velocity.v += dt * s.acceleration;
+  }
+  Vec& L = world.bodies.momentum[i].L;
+  const DampedMotion half = damped_motion(force.angular_damping, Real(0.5) * dt);
+  const auto half_kick = [&] {
+    if (force.angular_damping > Real(0)) {
+      L = half.decay * L + half.gain * force.torque;
+    } else {
+      L += (Real(0.5) * dt) * force.torque;
+    }
+  };
+  half_kick();
+  Rotation q = world.bodies.pose[i].q;
+  turn_freely(world.settings.rotation, mass, q, L, dt);
+  half_kick();
+  velocity.w = angular_velocity_of(mass, q, L);
+  if (is_finite(q)) world.bodies.pose[i].q = q;
+}
+
+}  // namespace
+
+void run_substeps(WorldState& world) {
+  const Real inverse_h = Real(1) / world.h;
+  for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
+  for (int substep = 0; substep < world.settings.substeps; ++substep) {
+    if (!world.bouncing_rows.empty()) run_impacts(world);
+    for_awake_bodies(world, [&](std::uint32_t i) { kick(world, i); });
+    for_rows_by_color(world, [&](ContactRow<Real>& row) {
+      if (row.skip) return;
+      RowVelocities<Real> u = read_velocities(world, row);
+      warm_start(row, u);
+      write_velocities(world, row, u);
+    });
+    for_rows_by_color(world, [&](ContactRow<Real>& row) {
+      if (row.skip) return;
+      const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
+      RowVelocities<Real> u = read_velocities(world, row);
+      Real load = 0, sliding = 0;
+      solve_normal(row, change, inverse_h, true, u);
+      solve_friction(row, u, load, sliding);
+      write_velocities(world, row, u);
+    });
+    for_awake_bodies(world, [&](std::uint32_t i) { drift(world, i); });
+    for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
+    for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
+  }
+  store_impulses(world);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,75 @@
+#include "world/body_store.h"
+
+#include <utility>
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+void BodyStore::push_dense(std::uint32_t slot) {
+  velocity.emplace_back();
+  pose.emplace_back();
+  momentum.emplace_back();
+  mass.emplace_back();
+  force.emplace_back();
+  slot_of.push_back(slot);
+}
+
+void BodyStore::swap_dense(std::uint32_t i, std::uint32_t j) {
+  if (i == j) return;
+  std::swap(velocity[i], velocity[j]);
+  std::swap(pose[i], pose[j]);
+  std::swap(momentum[i], momentum[j]);
+  std::swap(mass[i], mass[j]);
+  std::swap(force[i], force[j]);
+  std::swap(slot_of[i], slot_of[j]);
+  info[slot_of[i]].dense = i;
+  info[slot_of[j]].dense = j;
+}
+
+std::uint32_t BodyStore::create() {
+  std::uint32_t slot;
+  if (free_slots.empty()) {
+    slot = static_cast<std::uint32_t>(info.size());
+    info.emplace_back();
+  } else {
+    slot = free_slots.back();
+    free_slots.pop_back();
+  }
+  const std::uint32_t generation = info[slot].generation + 1;
+  info[slot] = BodyInfo{};
+  info[slot].generation = generation;
+  info[slot].alive = true;
+  info[slot].dense = dense_count();
+  push_dense(slot);
+  ++alive_count;
+  return slot;
+}
+
+void BodyStore::destroy(std::uint32_t slot) {
+  rest(slot);
+  swap_dense(info[slot].dense, dense_count() - 1);
+  velocity.pop_back();
+  pose.pop_back();
+  momentum.pop_back();
+  mass.pop_back();
+  force.pop_back();
+  slot_of.pop_back();
+  const std::uint32_t generation = info[slot].generation;
+  info[slot] = BodyInfo{};
+  info[slot].generation = generation;
+  free_slots.push_back(slot);
+  --alive_count;
+}
+
+void BodyStore::wake(std::uint32_t slot) {
+  if (is_awake(slot)) return;
+  swap_dense(info[slot].dense, awake_end);
+  ++awake_end;
+}
+
+void BodyStore::rest(std::uint32_t slot) {
+  if (!is_awake(slot)) return;
+  --awake_end;
+  swap_dense(info[slot].dense, awake_end);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,105 @@
+// Bodies, split by who reads what. Records of the step lie in dense arrays with the awake bodies in
+// front; everything else is found by slot, the index inside a BodyId, which never changes.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "math/quaternion.h"
+#include "plumb/rigid_body.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// --- dense: read by every stage of the step ------------------------------------------------------
+
+// Bytes per record in f32 / f64 stand behind the name.
+struct BodyVelocity {  // 32 / 64
+  Vec v{0, 0, 0};      // [m/s] centre of mass
+  Real pad0 = 0;
+  Vec w{0, 0, 0};      // [rad/s] world axes
+  Real pad1 = 0;
+};
+
+struct BodyPose {      // 28 / 56 (f32d: 40)
+  PosVec x{0, 0, 0};   // [m] centre of mass
+  Rotation q{0, 0, 0, 1};  // R_WP: principal axes to world
+};
+
+// The stored state of rotation is the angular momentum in world axes, not the angular velocity:
+// free motion leaves it untouched, bit for bit.
+struct BodyMomentum {  // 12 / 24
+  Vec L{0, 0, 0};      // [kg m^2/s] about the centre of mass, world axes
+};
+
+struct BodyMass {      // 48 / 96
+  Vec inverse_mass{0, 0, 0};     // [1/kg] by world axis; 0: locked or not dynamic
+  Real mass = 0;                 // [kg]; 0: not dynamic
+  Vec inverse_moments{0, 0, 0};  // [1/(kg m^2)] about the principal axes; 0: does not turn
+  Real gravity_scale = 1;
+  Vec moments{0, 0, 0};          // [kg m^2]; 0 where the inverse is
+  std::uint32_t angular_locks = 0;  // bit i: no rotation about world axis i
+};
+
+struct BodyForce {     // 32 / 64
+  Vec force{0, 0, 0};  // [N] over the next step
+  Real linear_damping = 0;  // [1/s]
+  Vec torque{0, 0, 0};  // [N m]
+  Real angular_damping = 0;
+};
+
+// --- by slot: read when something is built, asked for, or ends -----------------------------------
+
+struct BodyInfo {
+  std::uint32_t generation = 0;
+  bool alive = false;
+  bool disabled = false;   // quarantined: its state became non-finite
+  bool has_own_mass = false;
+  MotionType type = MotionType::Dynamic;
+  MotionLocks locks;
+  bool can_sleep = true;
+  std::uint32_t dense = 0;
+  std::uint32_t island = kNone;  // sleeping island, or kNone
+  Real rest_time = 0;            // [s] at rest without a break
+  Real size = 0;                 // [m] smallest thickness over its colliders
+  Real radius = 0;               // [m] farthest point of its colliders from the centre of mass
+  Vec center_B{0, 0, 0};         // centre of mass in B
+  Rotation R_BP{0, 0, 0, 1};     // principal axes in B
+  Vec acceleration{0, 0, 0};     // [m/s^2] from forces and gravity in the last step
+  MassProperties properties;     // in B
+  std::vector<std::uint32_t> colliders;  // slots
+  std::vector<ColliderId> collider_ids;
+  std::uint64_t user_data = 0;
+};
+
+class BodyStore {
+ public:
+  BodyStore() { push_dense(kNone); }  // dense 0 stands for the world itself: infinite mass, at rest
+
+  std::uint32_t create();          // returns the slot, asleep part
+  void destroy(std::uint32_t slot);
+  void wake(std::uint32_t slot);   // into the awake part of the dense arrays
+  void rest(std::uint32_t slot);   // out of it
+  [[nodiscard]] bool is_awake(std::uint32_t slot) const { return info[slot].dense < awake_end; }
+  [[nodiscard]] std::uint32_t dense_count() const { return static_cast<std::uint32_t>(slot_of.size()); }
+
+  std::vector<BodyVelocity> velocity;
+  std::vector<BodyPose> pose;
+  std::vector<BodyMomentum> momentum;
+  std::vector<BodyMass> mass;
+  std::vector<BodyForce> force;
+  std::vector<std::uint32_t> slot_of;
+  std::uint32_t awake_begin = 1, awake_end = 1;
+
+  std::vector<BodyInfo> info;
+  std::vector<std::uint32_t> free_slots;  // reused last in, first out
+  std::uint32_t alive_count = 0;
+
+ private:
+  void push_dense(std::uint32_t slot);
+  void swap_dense(std::uint32_t i, std::uint32_t j);
+};
+
+}  // namespace plumb::inline PLUMB_ABI::detail

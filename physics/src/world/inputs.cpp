@@ -1,0 +1,317 @@
+// Inputs as numbers. Layouts (x3: three numbers; u64: low and high 32 bits):
+//
+//   body       type, position x3, orientation xyzw x4, v x3, w x3, has mass [mass], six locks,
+//              linear damping, angular damping, gravity scale, can sleep, starts awake, user data u64
+//   mass       mass, centre x3, inertia xx yy zz xy xz yz
+//   collider   shape, position x3, orientation x4, friction, restitution, two rules, layers,
+//              collides with, density, is sensor, user data u64
+//   shape      0 sphere: radius | 1 box: half extents x3 | 2 capsule: half length, radius
+//              3 hull: vertex count, vertices x3, face count, (size, vertices...) a face
+//              4 half-space: normal x3, offset
+//   settings   gravity x3, substeps, contact frequency, damping ratio, rotation, warm starting,
+//              sleeping, time to sleep, profiling
+#include "world/inputs.h"
+
+#include <cmath>
+
+namespace plumb::inline PLUMB_ABI {
+
+const char* name_of(InputKind kind) {
+  switch (kind) {
+    case InputKind::CreateBody: return "create_body";
+    case InputKind::DestroyBody: return "destroy_body";
+    case InputKind::CreateCollider: return "create_collider";
+    case InputKind::DestroyCollider: return "destroy_collider";
+    case InputKind::SetPose: return "set_pose";
+    case InputKind::SetLinearVelocity: return "set_linear_velocity";
+    case InputKind::SetAngularVelocity: return "set_angular_velocity";
+    case InputKind::SetMass: return "set_mass";
+    case InputKind::ApplyForce: return "apply_force";
+    case InputKind::ApplyForceAt: return "apply_force_at";
+    case InputKind::ApplyForceAtBodyPoint: return "apply_force_at_body_point";
+    case InputKind::ApplyTorque: return "apply_torque";
+    case InputKind::ApplyImpulse: return "apply_impulse";
+    case InputKind::ApplyImpulseAt: return "apply_impulse_at";
+    case InputKind::ApplyImpulseAtBodyPoint: return "apply_impulse_at_body_point";
+    case InputKind::ApplyAngularImpulse: return "apply_angular_impulse";
+    case InputKind::SetAwake: return "set_awake";
+    case InputKind::SetSettings: return "set_settings";
+  }
+  return "unknown";
+}
+
+namespace detail {
+namespace {
+
+void append_all(std::vector<double>& out, std::initializer_list<double> numbers) {
+  out.insert(out.end(), numbers.begin(), numbers.end());
+}
+double as_number(Real a) { return static_cast<double>(a); }
+void append_long(std::vector<double>& out, std::uint64_t v) {
+  append_all(out, {static_cast<double>(v & 0xffffffffu), static_cast<double>(v >> 32)});
+}
+
+void append_shape(std::vector<double>& out, const Shape& shape) {
+  append_all(out, {static_cast<double>(shape.index())});
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    append_all(out, {as_number(sphere->radius)});
+  } else if (const auto* box = std::get_if<Box>(&shape)) {
+    append(out, box->half_extents);
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    append_all(out, {as_number(capsule->half_length), as_number(capsule->radius)});
+  } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
+    const HullGeometry& geometry = *hull->geometry;
+    append_all(out, {static_cast<double>(geometry.vertices().size())});
+    for (const Vec3& v : geometry.vertices()) append(out, v);
+    append_all(out, {static_cast<double>(geometry.face_count())});
+    for (std::size_t k = 0; k < geometry.face_count(); ++k) {
+      append_all(out, {static_cast<double>(geometry.face(k).size())});
+      for (const std::uint32_t v : geometry.face(k)) append_all(out, {static_cast<double>(v)});
+    }
+  } else if (const auto* space = std::get_if<HalfSpace>(&shape)) {
+    append(out, space->normal);
+    append_all(out, {as_number(space->offset)});
+  }
+}
+
+Shape read_shape(NumberReader& in, bool& ok) {
+  switch (in.word()) {
+    case 0: return Sphere{in.real()};
+    case 1: return Box{in.vector()};
+    case 2: {
+      const Real half_length = in.real();
+      return Capsule{half_length, in.real()};
+    }
+    case 3: {
+      std::vector<Vec3> vertices;
+      for (std::uint32_t n = in.word(); n > 0 && in.ok(); --n) vertices.push_back(in.vector());
+      std::vector<std::uint32_t> sizes, indices;
+      for (std::uint32_t n = in.word(); n > 0 && in.ok(); --n) {
+        sizes.push_back(in.word());
+        for (std::uint32_t k = sizes.back(); k > 0 && in.ok(); --k) indices.push_back(in.word());
+      }
+      if (!in.ok()) break;
+      auto made = HullGeometry::create(vertices, sizes, indices);
+      if (!made.status.ok()) break;
+      return ConvexHull{std::move(made.hull)};
+    }
+    case 4: {
+      const Vec3 normal = in.vector();
+      return HalfSpace{normal, in.real()};
+    }
+    default: break;
+  }
+  ok = false;
+  return Sphere{};
+}
+
+template <class Enum>
+Enum choice(NumberReader& in, std::uint32_t count, bool& ok) {
+  const std::uint32_t value = in.word();
+  if (value >= count) ok = false;
+  return static_cast<Enum>(value < count ? value : 0);
+}
+
+}  // namespace
+
+void append(std::vector<double>& out, const Vec3& v) {
+  append_all(out, {as_number(v.x()), as_number(v.y()), as_number(v.z())});
+}
+void append_position(std::vector<double>& out, const Pos3& p) {
+  append_all(out, {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())});
+}
+void append(std::vector<double>& out, const Quat& q) {
+  append_all(out, {as_number(q.x()), as_number(q.y()), as_number(q.z()), as_number(q.w())});
+}
+void append(std::vector<double>& out, const MassProperties& m) {
+  const Eigen::Matrix3d& I = m.I_Bcm_B;
+  append_all(out, {m.mass, m.center.x(), m.center.y(), m.center.z(), I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)});
+}
+void append(std::vector<double>& out, const RigidBody& body) {
+  append_all(out, {static_cast<double>(body.type)});
+  append_position(out, body.pose.position);
+  append(out, body.pose.orientation);
+  append(out, body.linear_velocity);
+  append(out, body.angular_velocity);
+  append_all(out, {body.mass.has_value() ? 1.0 : 0.0});
+  if (body.mass.has_value()) append(out, *body.mass);
+  const MotionLocks& k = body.locks;
+  for (const bool lock : {k.linear_x, k.linear_y, k.linear_z, k.angular_x, k.angular_y, k.angular_z})
+    append_all(out, {lock ? 1.0 : 0.0});
+  append_all(out, {as_number(body.linear_damping), as_number(body.angular_damping), as_number(body.gravity_scale),
+                   body.can_sleep ? 1.0 : 0.0, body.starts_awake ? 1.0 : 0.0});
+  append_long(out, body.user_data);
+}
+void append(std::vector<double>& out, const Collider& collider) {
+  append_shape(out, collider.shape);
+  append(out, collider.pose.position);
+  append(out, collider.pose.orientation);
+  const Material& m = collider.material;
+  append_all(out, {as_number(m.friction), as_number(m.restitution), static_cast<double>(m.friction_rule),
+                   static_cast<double>(m.restitution_rule), static_cast<double>(collider.filter.layers),
+                   static_cast<double>(collider.filter.collides_with), collider.density, collider.is_sensor ? 1.0 : 0.0});
+  append_long(out, collider.user_data);
+}
+void append(std::vector<double>& out, const WorldSettings& s) {
+  append(out, s.gravity);
+  append_all(out, {static_cast<double>(s.substeps), as_number(s.contact_frequency), as_number(s.contact_damping_ratio),
+                   static_cast<double>(s.rotation), s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0,
+                   as_number(s.time_to_sleep), s.profiling ? 1.0 : 0.0});
+}
+
+double NumberReader::number() {
+  if (at_ >= numbers_.size()) {
+    ok_ = false;
+    return 0;
+  }
+  return numbers_[at_++];
+}
+std::uint32_t NumberReader::word() {
+  const double v = number();
+  if (!(v >= 0 && v <= 4294967295.0) || v != std::floor(v)) {
+    ok_ = false;
+    return 0;
+  }
+  return static_cast<std::uint32_t>(v);
+}
+std::uint64_t NumberReader::long_word() {
+  const std::uint64_t low = word();
+  return low | (std::uint64_t{word()} << 32);
+}
+Vec3 NumberReader::vector() {
+  const Real x = real(), y = real(), z = real();
+  return {x, y, z};
+}
+Pos3 NumberReader::position() {
+  const double x = number(), y = number(), z = number();
+  return {static_cast<PosReal>(x), static_cast<PosReal>(y), static_cast<PosReal>(z)};
+}
+Quat NumberReader::orientation() {
+  const Real x = real(), y = real(), z = real(), w = real();
+  return {w, x, y, z};
+}
+MassProperties NumberReader::mass() {
+  MassProperties m;
+  m.mass = number();
+  for (int i = 0; i < 3; ++i) m.center[i] = number();
+  for (int i = 0; i < 3; ++i) m.I_Bcm_B(i, i) = number();
+  m.I_Bcm_B(0, 1) = m.I_Bcm_B(1, 0) = number();
+  m.I_Bcm_B(0, 2) = m.I_Bcm_B(2, 0) = number();
+  m.I_Bcm_B(1, 2) = m.I_Bcm_B(2, 1) = number();
+  return m;
+}
+RigidBody NumberReader::body() {
+  RigidBody body;
+  body.type = choice<MotionType>(*this, 3, ok_);
+  body.pose.position = position();
+  body.pose.orientation = orientation();
+  body.linear_velocity = vector();
+  body.angular_velocity = vector();
+  if (flag()) body.mass = mass();
+  MotionLocks& k = body.locks;
+  for (bool* lock : {&k.linear_x, &k.linear_y, &k.linear_z, &k.angular_x, &k.angular_y, &k.angular_z}) *lock = flag();
+  body.linear_damping = real();
+  body.angular_damping = real();
+  body.gravity_scale = real();
+  body.can_sleep = flag();
+  body.starts_awake = flag();
+  body.user_data = long_word();
+  return body;
+}
+Collider NumberReader::collider() {
+  Collider collider;
+  collider.shape = read_shape(*this, ok_);
+  collider.pose.position = vector();
+  collider.pose.orientation = orientation();
+  collider.material.friction = real();
+  collider.material.restitution = real();
+  collider.material.friction_rule = choice<CombineRule>(*this, 5, ok_);
+  collider.material.restitution_rule = choice<CombineRule>(*this, 5, ok_);
+  collider.filter.layers = word();
+  collider.filter.collides_with = word();
+  collider.density = number();
+  collider.is_sensor = flag();
+  collider.user_data = long_word();
+  return collider;
+}
+WorldSettings NumberReader::settings() {
+  WorldSettings s;
+  s.gravity = vector();
+  s.substeps = static_cast<int>(word());
+  s.contact_frequency = real();
+  s.contact_damping_ratio = real();
+  s.rotation = choice<RotationMethod>(*this, 3, ok_);
+  s.warm_starting = flag();
+  s.sleeping = flag();
+  s.time_to_sleep = real();
+  s.profiling = flag();
+  return s;
+}
+
+}  // namespace detail
+
+Status PhysicsWorld::apply_input(const InputRecord& input) {
+  detail::NumberReader in(input.numbers);
+  const BodyId body = BodyId::from_value(input.target);
+  const Status malformed{StatusCode::BadSnapshot, "the recorded input does not have the numbers of its kind"};
+  // Everything is read before anything is done, so that a malformed record changes nothing.
+  switch (input.kind) {
+    case InputKind::CreateBody: {
+      const RigidBody made = in.body();
+      return in.complete() ? create_body(made).status : malformed;
+    }
+    case InputKind::DestroyBody: return in.complete() ? destroy_body(body) : malformed;
+    case InputKind::CreateCollider: {
+      const Collider made = in.collider();
+      return in.complete() ? create_collider(body, made).status : malformed;
+    }
+    case InputKind::DestroyCollider:
+      return in.complete() ? destroy_collider(ColliderId::from_value(input.target)) : malformed;
+    case InputKind::SetPose: {
+      Pose pose;
+      pose.position = in.position();
+      pose.orientation = in.orientation();
+      return in.complete() ? set_pose(body, pose) : malformed;
+    }
+    case InputKind::SetMass: {
+      const MassProperties mass = in.mass();
+      return in.complete() ? set_mass(body, mass) : malformed;
+    }
+    case InputKind::SetAwake: {
+      const bool awake = in.flag();
+      return in.complete() ? set_awake(body, awake) : malformed;
+    }
+    case InputKind::SetSettings: {
+      const WorldSettings chosen = in.settings();
+      return in.complete() ? set_settings(chosen) : malformed;
+    }
+    case InputKind::ApplyForceAt:
+    case InputKind::ApplyImpulseAt: {
+      const Vec3 v = in.vector();
+      const Pos3 p = in.position();
+      if (!in.complete()) return malformed;
+      return input.kind == InputKind::ApplyForceAt ? apply_force_at(body, v, p) : apply_impulse_at(body, v, p);
+    }
+    case InputKind::ApplyForceAtBodyPoint:
+    case InputKind::ApplyImpulseAtBodyPoint: {
+      const Vec3 v = in.vector(), p = in.vector();
+      if (!in.complete()) return malformed;
+      return input.kind == InputKind::ApplyForceAtBodyPoint ? apply_force_at_body_point(body, v, p)
+                                                            : apply_impulse_at_body_point(body, v, p);
+    }
+    default: break;
+  }
+  const Vec3 v = in.vector();
+  if (!in.complete()) return malformed;
+  switch (input.kind) {
+    case InputKind::SetLinearVelocity: return set_linear_velocity(body, v);
+    case InputKind::SetAngularVelocity: return set_angular_velocity(body, v);
+    case InputKind::ApplyForce: return apply_force(body, v);
+    case InputKind::ApplyTorque: return apply_torque(body, v);
+    case InputKind::ApplyImpulse: return apply_impulse(body, v);
+    case InputKind::ApplyAngularImpulse: return apply_angular_impulse(body, v);
+    default: return {StatusCode::BadSnapshot, "the recorded input is of an unknown kind"};
+  }
+}
+
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,52 @@
+// Writing calls down as numbers, and reading them back (inputs.cpp documents the layouts).
+#pragma once
+
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+// Notes a call when somebody observes the world. `fill` appends its numbers.
+template <class Fill>
+void note_input(WorldState& world, InputKind kind, std::uint64_t target, Fill&& fill) {
+  if (world.observers.empty()) return;
+  InputRecord record;
+  record.kind = kind;
+  record.target = target;
+  fill(record.numbers);
+  world.inputs.push_back(std::move(record));
+}
+
+void append(std::vector<double>& out, const Vec3& v);
+void append_position(std::vector<double>& out, const Pos3& p);
+void append(std::vector<double>& out, const Quat& q);
+void append(std::vector<double>& out, const MassProperties& m);
+void append(std::vector<double>& out, const RigidBody& body);
+void append(std::vector<double>& out, const Collider& collider);
+void append(std::vector<double>& out, const WorldSettings& settings);
+
+// Reads numbers in order; remembers when there were too few or one was no valid choice.
+class NumberReader {
+ public:
+  explicit NumberReader(std::span<const double> numbers) : numbers_(numbers) {}
+  double number();
+  Real real() { return static_cast<Real>(number()); }
+  bool flag() { return number() != 0; }
+  std::uint32_t word();                // 32-bit
+  std::uint64_t long_word();           // two numbers: low, high
+  Vec3 vector();
+  Pos3 position();
+  Quat orientation();
+  MassProperties mass();
+  RigidBody body();
+  Collider collider();
+  WorldSettings settings();
+  [[nodiscard]] bool complete() const { return ok_ && at_ == numbers_.size(); }
+  [[nodiscard]] bool ok() const { return ok_; }
+
+ private:
+  std::span<const double> numbers_;
+  std::size_t at_ = 0;
+  bool ok_ = true;
+};
+
+}  // namespace plumb::inline PLUMB_ABI::detail

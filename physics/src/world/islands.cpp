@@ -1,0 +1,203 @@
+// Islands: bodies linked by contacts fall asleep together and wake together.
+#include <algorithm>
+#include <cmath>
+
+#include "world/tolerances.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+bool is_dynamic(const WorldState& world, std::uint32_t body) {
+  return world.bodies.info[body].type == MotionType::Dynamic;
+}
+
+std::uint32_t find_root(std::vector<std::uint32_t>& parents, std::uint32_t i) {
+  while (parents[i] != i) {
+    parents[i] = parents[parents[i]];
+    i = parents[i];
+  }
+  return i;
+}
+
+// The smaller slot becomes the root, so that roots do not depend on the order of the links.
+void link(std::vector<std::uint32_t>& parents, std::uint32_t a, std::uint32_t b) {
+  a = find_root(parents, a);
+  b = find_root(parents, b);
+  if (a < b) {
+    parents[b] = a;
+  } else {
+    parents[a] = b;
+  }
+}
+
+void link_touching(WorldState& world) {
+  world.parents.resize(world.bodies.info.size());
+  for (std::uint32_t dense = world.bodies.awake_begin; dense < world.bodies.awake_end; ++dense)
+    world.parents[world.bodies.slot_of[dense]] = world.bodies.slot_of[dense];
+  for (const std::uint32_t i : world.touching) {
+    const Pair& pair = world.pairs[i];
+    if (is_dynamic(world, pair.body_a) && is_dynamic(world, pair.body_b) &&
+        world.bodies.is_awake(pair.body_a) && world.bodies.is_awake(pair.body_b))
+      link(world.parents, pair.body_a, pair.body_b);
+  }
+}
+
+// A body must be this slow to count as resting [m/s].
+Real rest_speed(const WorldState& world, const BodyInfo& info, Real gravity_scale) {
+  const Real g = static_cast<Real>(world.settings.gravity.norm()) * std::abs(gravity_scale);
+  return std::max(tolerance::kRestSpeedFraction * std::sqrt(g * info.size),
+                  tolerance::kRestSizesPerSecond * info.size);
+}
+
+void update_rest_time(WorldState& world, std::uint32_t dense) {
+  BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
+  if (info.type != MotionType::Dynamic) return;
+  const BodyVelocity& velocity = world.bodies.velocity[dense];
+  const Real speed = length(velocity.v) + length(velocity.w) * info.radius;
+  // What nothing supports is not at rest, however slow it is at the moment: it floats or turns back.
+  const bool supported = world.substep[dense].constrained;
+  const Real limit = rest_speed(world, info, world.bodies.mass[dense].gravity_scale);
+  const bool rests = info.can_sleep && (supported ? speed < limit : speed == Real(0) &&
+                     length_squared(world.substep[dense].acceleration) == Real(0));
+  info.rest_time = rests ? info.rest_time + world.dt : Real(0);
+}
+
+void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
+  std::uint32_t index;
+  if (world.free_islands.empty()) {
+    index = static_cast<std::uint32_t>(world.islands.size());
+    world.islands.emplace_back();
+  } else {
+    index = world.free_islands.back();
+    world.free_islands.pop_back();
+  }
+  SleepingIsland& island = world.islands[index];
+  island = {};
+  island.used = true;
+  island.bodies = std::move(bodies);
+  for (const std::uint32_t body : island.bodies) {
+    BodyInfo& info = world.bodies.info[body];
+    const std::uint32_t dense = info.dense;
+    world.bodies.velocity[dense] = {};
+    world.bodies.momentum[dense] = {};
+    world.bodies.force[dense].force = world.bodies.force[dense].torque = {0, 0, 0};
+    info.island = index;
+    info.acceleration = {0, 0, 0};
+    world.bodies.rest(body);
+    world.gathering.sleep.push_back({{body, info.generation}, true});
+  }
+}
+
+// Takes the touching pairs of all bodies that just fell asleep out of the awake ones. A pair that only
+// has overlapping bounds is forgotten; waking seeks it again.
+void move_pairs_to_islands(WorldState& world) {
+  world.pairs.remove_if([&](const Pair& pair) {
+    const std::uint32_t in_a = world.bodies.info[pair.body_a].island;
+    const std::uint32_t in_b = world.bodies.info[pair.body_b].island;
+    if (in_a == kNone && in_b == kNone) return false;
+    if (world.bodies.is_awake(pair.body_a) || world.bodies.is_awake(pair.body_b)) return false;
+    if (pair.was_touching || pair.touching) world.islands[in_a != kNone ? in_a : in_b].pairs.push_back(pair);
+    return true;
+  });
+}
+
+}  // namespace
+
+void wake_body(WorldState& world, std::uint32_t body) {
+  BodyInfo& info = world.bodies.info[body];
+  if (info.disabled || info.type == MotionType::Static) return;
+  info.rest_time = 0;
+  world.touched.push_back(body);
+  if (info.island == kNone) {
+    world.bodies.wake(body);
+    return;
+  }
+  const std::uint32_t index = info.island;
+  SleepingIsland island = std::move(world.islands[index]);
+  world.islands[index] = {};
+  world.free_islands.push_back(index);
+  for (const std::uint32_t member : island.bodies) {
+    BodyInfo& sleeper = world.bodies.info[member];
+    sleeper.island = kNone;
+    sleeper.rest_time = 0;
+    world.bodies.wake(member);
+    world.gathering.sleep.push_back({{member, sleeper.generation}, false});
+    for (const std::uint32_t collider : sleeper.colliders) {
+      ColliderInfo& c = world.colliders.info[collider];
+      if (!c.query_pairs) {
+        c.query_pairs = true;
+        world.query_list.push_back(collider);
+      }
+    }
+  }
+  std::erase_if(island.pairs, [&](const Pair& pair) { return world.pairs.contains(pair.key); });
+  world.pairs.insert_sorted(island.pairs);
+}
+
+void wake_around(WorldState& world, std::uint32_t body) {
+  std::vector<std::uint32_t> sleepers;
+  for (const std::uint32_t slot : world.bodies.info[body].colliders) {
+    const ColliderInfo& collider = world.colliders.info[slot];
+    if (collider.proxy == AabbTree::kNull) continue;
+    const AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
+    world.moving_tree.query(tree.box(collider.proxy), [&](std::uint32_t other) {
+      const std::uint32_t owner = world.colliders.info[other].body;
+      if (world.bodies.info[owner].island != kNone) sleepers.push_back(owner);
+    });
+  }
+  std::sort(sleepers.begin(), sleepers.end());
+  for (const std::uint32_t sleeper : sleepers) wake_body(world, sleeper);
+}
+
+void sleep_islands(WorldState& world) {
+  world.report.islands = 0;
+  if (!world.flags.sleeping) return;
+  BodyStore& bodies = world.bodies;
+  link_touching(world);
+  for (std::uint32_t dense = bodies.awake_begin; dense < bodies.awake_end; ++dense)
+    update_rest_time(world, dense);
+  // The shortest rest of any member decides for the island.
+  std::vector<std::uint32_t> awake(bodies.slot_of.begin() + bodies.awake_begin,
+                                   bodies.slot_of.begin() + bodies.awake_end);
+  std::erase_if(awake, [&](std::uint32_t body) { return !is_dynamic(world, body); });
+  std::sort(awake.begin(), awake.end());
+  for (const std::uint32_t body : awake) {
+    const std::uint32_t root = find_root(world.parents, body);
+    bodies.info[root].rest_time = std::min(bodies.info[root].rest_time, bodies.info[body].rest_time);
+    if (root == body) ++world.report.islands;
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // root, body
+  for (const std::uint32_t body : awake) {
+    const std::uint32_t root = find_root(world.parents, body);
+    if (bodies.info[root].rest_time >= world.settings.time_to_sleep) resting.emplace_back(root, body);
+  }
+  if (resting.empty()) return;
+  std::sort(resting.begin(), resting.end());
+  for (std::size_t i = 0; i < resting.size();) {
+    std::vector<std::uint32_t> members;
+    const std::uint32_t root = resting[i].first;
+    for (; i < resting.size() && resting[i].first == root; ++i) members.push_back(resting[i].second);
+    store_island(world, std::move(members));
+  }
+  move_pairs_to_islands(world);
+}
+
+void put_to_sleep(WorldState& world, std::uint32_t body) {
+  if (!is_dynamic(world, body) || !world.bodies.is_awake(body)) return;
+  world.touching.clear();
+  for (std::uint32_t i = 0; i < world.pairs.size(); ++i)
+    if (world.pairs[i].touching && !world.pairs[i].sensor) world.touching.push_back(i);
+  link_touching(world);
+  std::vector<std::uint32_t> members;
+  const std::uint32_t root = find_root(world.parents, body);
+  for (std::uint32_t dense = world.bodies.awake_begin; dense < world.bodies.awake_end; ++dense) {
+    const std::uint32_t other = world.bodies.slot_of[dense];
+    if (is_dynamic(world, other) && find_root(world.parents, other) == root) members.push_back(other);
+  }
+  std::sort(members.begin(), members.end());
+  store_island(world, std::move(members));
+  move_pairs_to_islands(world);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,155 @@
+// The plan: what the coming step needs, from a few counts, and the same in words when somebody asks.
+#include "plumb/plan.h"
+
+#include <algorithm>
+#include <string>
+
+#include "math/eigen_bridge.h"
+#include "motion/rotation_flow.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI {
+
+const char* name_of(PlanItem item) {
+  switch (item) {
+    case PlanItem::Gravity: return "gravity";
+    case PlanItem::Forces: return "forces";
+    case PlanItem::Damping: return "damping";
+    case PlanItem::Gyroscopic: return "gyroscopic";
+    case PlanItem::MotionLocks: return "motion locks";
+    case PlanItem::Contacts: return "contacts";
+    case PlanItem::Friction: return "friction";
+    case PlanItem::Restitution: return "restitution";
+    case PlanItem::Continuous: return "look-ahead";
+    case PlanItem::Sensors: return "sensors";
+    case PlanItem::Sleeping: return "sleeping";
+    case PlanItem::DoublePositions: return "double positions";
+    case PlanItem::Count: break;
+  }
+  return "";
+}
+
+const char* name_of(Stage stage) {
+  switch (stage) {
+    case Stage::Plan: return "plan";
+    case Stage::Broadphase: return "broadphase";
+    case Stage::Narrowphase: return "narrowphase";
+    case Stage::Islands: return "islands";
+    case Stage::Coloring: return "coloring";
+    case Stage::Rows: return "rows";
+    case Stage::Impacts: return "impacts";
+    case Stage::Substeps: return "substeps";
+    case Stage::Finalize: return "finalize";
+    case Stage::Sleep: return "sleep";
+    case Stage::Count: break;
+  }
+  return "";
+}
+
+namespace detail {
+
+void plan_step(WorldState& world, double dt) {
+  world.dt = static_cast<Real>(dt);
+  world.h = world.dt / static_cast<Real>(world.settings.substeps);
+  world.flags.gravity = world.settings.gravity.squaredNorm() > 0;
+  world.flags.sleeping = world.settings.sleeping;
+  world.flags.sensors = world.counts.sensors > 0;
+
+  StepReport& report = world.report;
+  report = {};
+  report.step = ++world.step_count;
+  report.dt = dt;
+  report.bodies = world.bodies.alive_count;
+}
+
+namespace {
+
+struct Tally {
+  std::uint32_t dynamic = 0, kinematic = 0, fixed = 0, awake = 0;
+  std::uint32_t forced = 0, damped = 0, isotropic = 0, symmetric = 0, asymmetric = 0, unturnable = 0;
+  std::uint32_t locked = 0, frictional = 0, bouncing = 0, sensors = 0, weightless = 0;
+};
+
+Tally tally(const WorldState& world) {
+  Tally t;
+  const BodyStore& bodies = world.bodies;
+  for (std::uint32_t slot = 0; slot < bodies.info.size(); ++slot) {
+    const BodyInfo& info = bodies.info[slot];
+    if (!info.alive) continue;
+    if (info.type == MotionType::Static) ++t.fixed;
+    if (info.type == MotionType::Kinematic) ++t.kinematic;
+    if (bodies.is_awake(slot)) ++t.awake;
+    if (info.type != MotionType::Dynamic) continue;
+    ++t.dynamic;
+    const BodyMass& m = bodies.mass[info.dense];
+    const BodyForce& f = bodies.force[info.dense];
+    if (length_squared(f.force) > Real(0) || length_squared(f.torque) > Real(0)) ++t.forced;
+    if (f.linear_damping > Real(0) || f.angular_damping > Real(0)) ++t.damped;
+    if (m.gravity_scale == Real(0)) ++t.weightless;
+    const bool locked = m.angular_locks != 0 || info.locks.linear_x || info.locks.linear_y || info.locks.linear_z;
+    if (locked) ++t.locked;
+    if (m.angular_locks != 0 || length_squared(m.moments) == Real(0)) {
+      ++t.unturnable;
+      continue;
+    }
+    switch (classify_inertia(m.moments)) {
+      case RotationKind::Isotropic: ++t.isotropic; break;
+      case RotationKind::Symmetric: ++t.symmetric; break;
+      case RotationKind::Asymmetric: ++t.asymmetric; break;
+    }
+  }
+  for (const ColliderInfo& collider : world.colliders.info) {
+    if (!collider.alive) continue;
+    if (collider.component.is_sensor) {
+      ++t.sensors;
+    } else {
+      if (collider.component.material.friction > Real(0)) ++t.frictional;
+      if (collider.component.material.restitution > Real(0)) ++t.bouncing;
+    }
+  }
+  return t;
+}
+
+std::string of(std::uint32_t part, std::uint32_t whole, const char* what) {
+  return std::to_string(part) + " of " + std::to_string(whole) + " " + what;
+}
+
+}  // namespace
+}  // namespace detail
+
+StepPlan PhysicsWorld::plan() const {
+  const detail::WorldState& world = *state_;
+  const detail::Tally t = detail::tally(world);
+  StepPlan plan;
+  const auto decide = [&](PlanItem item, bool active, std::string reason) {
+    plan.decisions.push_back({item, active, std::move(reason)});
+  };
+  const bool gravity = world.settings.gravity.squaredNorm() > 0;
+  decide(PlanItem::Gravity, gravity && t.dynamic > t.weightless,
+         gravity ? detail::of(t.dynamic - t.weightless, t.dynamic, "dynamic bodies have weight")
+                 : "the gravity of the settings is zero");
+  decide(PlanItem::Forces, t.forced > 0, detail::of(t.forced, t.dynamic, "dynamic bodies have a force or torque waiting"));
+  decide(PlanItem::Damping, t.damped > 0, detail::of(t.damped, t.dynamic, "dynamic bodies are damped"));
+  const bool gyro = world.settings.rotation != RotationMethod::Book && t.symmetric + t.asymmetric > 0;
+  decide(PlanItem::Gyroscopic, gyro,
+         detail::of(t.symmetric + t.asymmetric, t.dynamic, "dynamic bodies have unequal moments (") +
+             std::to_string(t.isotropic) + " isotropic, " + std::to_string(t.unturnable) + " do not turn freely)");
+  decide(PlanItem::MotionLocks, t.locked > 0, detail::of(t.locked, t.dynamic, "dynamic bodies have a locked axis"));
+  const std::uint32_t pairs = static_cast<std::uint32_t>(world.pairs.size());
+  decide(PlanItem::Contacts, pairs > 0 || !world.query_list.empty(),
+         std::to_string(pairs) + " awake pairs have overlapping bounds, " +
+             std::to_string(world.query_list.size()) + " colliders seek new ones");
+  decide(PlanItem::Friction, t.frictional > 0, std::to_string(t.frictional) + " colliders have friction");
+  decide(PlanItem::Restitution, t.bouncing > 0,
+         t.bouncing > 0 ? std::to_string(t.bouncing) + " colliders bounce" : "no collider has restitution");
+  decide(PlanItem::Continuous, t.awake > 0, "contacts look one step ahead of " + std::to_string(t.awake) + " awake bodies");
+  decide(PlanItem::Sensors, t.sensors > 0, std::to_string(t.sensors) + " colliders are sensors");
+  decide(PlanItem::Sleeping, world.settings.sleeping,
+         world.settings.sleeping ? detail::of(t.awake, t.dynamic + t.kinematic, "moving bodies are awake")
+                                 : "switched off in the settings");
+  constexpr bool kDouble = !std::is_same_v<PosReal, float>;
+  decide(PlanItem::DoublePositions, kDouble, std::string("this build is ") + kPrecisionName);
+  return plan;
+}
+
+}  // namespace plumb::inline PLUMB_ABI

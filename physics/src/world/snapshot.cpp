@@ -1,0 +1,552 @@
+// Saving and restoring a world as named columns, and the digest of its state.
+//
+// One visitor per table lists its columns once; saving, restoring and their order all follow from it.
+#include "plumb/snapshot.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+#include <type_traits>
+
+#include "collision/collide.h"
+#include "math/eigen_bridge.h"
+#include "world/inputs.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace detail {
+namespace {
+
+// Appends rows to columns that it makes with the first row.
+class TableWriter {
+ public:
+  TableWriter(Snapshot& out, const char* table) : out_(out), table_(table), first_(out.columns.size()) {}
+  void next_row() { cursor_ = first_; }
+  template <class... T>
+  void operator()(const char* name, T&... values) {
+    using First = std::tuple_element_t<0, std::tuple<T...>>;
+    constexpr bool kIsReal = std::is_floating_point_v<First>;
+    if (cursor_ == out_.columns.size()) {
+      SnapshotColumn column;
+      column.name = std::string(table_) + "." + name;
+      column.width = sizeof...(T);
+      column.type = kIsReal ? SnapshotColumn::Type::Float64 : SnapshotColumn::Type::Uint64;
+      out_.columns.push_back(std::move(column));
+    }
+    SnapshotColumn& column = out_.columns[cursor_++];
+    if constexpr (kIsReal) {
+      (column.reals.push_back(static_cast<double>(values)), ...);
+    } else {
+      (column.integers.push_back(static_cast<std::uint64_t>(values)), ...);
+    }
+  }
+
+ private:
+  Snapshot& out_;
+  const char* table_;
+  std::size_t first_, cursor_ = 0;
+};
+
+// Reads rows of the same columns; every mismatch makes it fail, never read outside.
+class TableReader {
+ public:
+  TableReader(const Snapshot& in, const char* table) : in_(in), prefix_(std::string(table) + ".") {
+    while (first_ < in.columns.size() && in.columns[first_].name.rfind(prefix_, 0) != 0) ++first_;
+    if (first_ < in.columns.size()) {
+      const SnapshotColumn& c = in.columns[first_];
+      const std::size_t size = c.type == SnapshotColumn::Type::Float64 ? c.reals.size() : c.integers.size();
+      rows_ = c.width > 0 ? size / c.width : 0;
+    }
+  }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] bool ok() const { return ok_; }
+  void next_row() {
+    cursor_ = first_;
+    row_ = started_ ? row_ + 1 : 0;
+    started_ = true;
+  }
+  template <class... T>
+  void operator()(const char* name, T&... values) {
+    using First = std::tuple_element_t<0, std::tuple<T...>>;
+    constexpr bool kIsReal = std::is_floating_point_v<First>;
+    constexpr std::size_t kWidth = sizeof...(T);
+    if (cursor_ >= in_.columns.size()) {
+      ok_ = false;
+      return;
+    }
+    const SnapshotColumn& column = in_.columns[cursor_++];
+    const bool real_column = column.type == SnapshotColumn::Type::Float64;
+    const std::size_t size = real_column ? column.reals.size() : column.integers.size();
+    if (column.name != prefix_ + name || column.width != kWidth || real_column != kIsReal || size != rows_ * kWidth ||
+        row_ >= rows_) {
+      ok_ = false;
+      return;
+    }
+    std::size_t at = row_ * kWidth;
+    if constexpr (kIsReal) {
+      ((values = static_cast<T>(column.reals[at++])), ...);
+    } else {
+      ((values = static_cast<T>(column.integers[at++])), ...);
+    }
+  }
+
+ private:
+  const Snapshot& in_;
+  std::string prefix_;
+  std::size_t first_ = 0, cursor_ = 0, rows_ = 0, row_ = 0;
+  bool started_ = false, ok_ = true;
+};
+
+template <class Table>
+void visit_world(Table& t, WorldState& world) {
+  WorldSettings& s = world.settings;
+  t("gravity", s.gravity.x(), s.gravity.y(), s.gravity.z());
+  t("substeps", s.substeps);
+  t("contact_spring", s.contact_frequency, s.contact_damping_ratio);
+  t("rotation", s.rotation);
+  t("switches", s.warm_starting, s.sleeping, s.profiling);
+  t("time_to_sleep", s.time_to_sleep);
+  t("time", world.time);
+  t("dt", world.dt, world.proxy_dt);
+  t("steps", world.step_count);
+}
+
+template <class Table>
+void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentum& m, BodyForce& f, Real& gravity_scale,
+                bool& awake) {
+  t("generation", i.generation);
+  t("flags", i.alive, i.disabled, i.has_own_mass, i.can_sleep, awake);
+  t("type", i.type);
+  t("locks", i.locks.linear_x, i.locks.linear_y, i.locks.linear_z, i.locks.angular_x, i.locks.angular_y, i.locks.angular_z);
+  t("island", i.island);
+  t("rest_time", i.rest_time);
+  t("position", x.x.x, x.x.y, x.x.z);
+  t("orientation", x.q.x, x.q.y, x.q.z, x.q.w);
+  t("velocity", v.v.x, v.v.y, v.v.z);
+  t("angular_velocity", v.w.x, v.w.y, v.w.z);
+  t("angular_momentum", m.L.x, m.L.y, m.L.z);
+  t("force", f.force.x, f.force.y, f.force.z);
+  t("torque", f.torque.x, f.torque.y, f.torque.z);
+  t("damping", f.linear_damping, f.angular_damping);
+  t("gravity_scale", gravity_scale);
+  t("acceleration", i.acceleration.x, i.acceleration.y, i.acceleration.z);
+  t("center", i.center_B.x, i.center_B.y, i.center_B.z);
+  t("principal_axes", i.R_BP.x, i.R_BP.y, i.R_BP.z, i.R_BP.w);
+  Eigen::Matrix3d& I = i.properties.I_Bcm_B;
+  t("mass", i.properties.mass);
+  t("mass_center", i.properties.center.x(), i.properties.center.y(), i.properties.center.z());
+  t("inertia", I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
+  t("user_data", i.user_data);
+}
+
+struct ShapeNumbers {
+  std::uint32_t type = 0, hull = kNone;
+  double n[4]{};
+};
+
+template <class Table>
+void visit_collider(Table& t, ColliderInfo& c, ShapeNumbers& shape, WorldAabb& box) {
+  t("generation", c.generation);
+  t("flags", c.alive, c.is_static, c.query_pairs, c.component.is_sensor);
+  t("body", c.body);
+  t("shape", shape.type, shape.hull);
+  t("shape_numbers", shape.n[0], shape.n[1], shape.n[2], shape.n[3]);
+  LocalPose& p = c.component.pose;
+  t("position", p.position.x(), p.position.y(), p.position.z());
+  t("orientation", p.orientation.x(), p.orientation.y(), p.orientation.z(), p.orientation.w());
+  Material& m = c.component.material;
+  t("surface", m.friction, m.restitution);
+  t("surface_rules", m.friction_rule, m.restitution_rule);
+  t("filter", c.component.filter.layers, c.component.filter.collides_with);
+  t("density", c.component.density);
+  t("user_data", c.component.user_data);
+  t("bounds", box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z);
+}
+
+template <class Table>
+void visit_pair(Table& t, Pair& p, std::uint32_t& island) {
+  t("key", p.key);
+  t("island", island);
+  t("bodies", p.body_a, p.body_b);
+  t("flags", p.sensor, p.touching, p.was_touching, p.at_rest, p.relative_to_b);
+  t("surface", p.friction, p.restitution, p.slop);
+  Manifold& m = p.manifold;
+  t("normal", m.normal.x, m.normal.y, m.normal.z);
+  t("points", m.count);
+  static constexpr const char* kNames[4][5] = {
+      {"place0", "feature0", "impulse0", "friction0", "step0"},
+      {"place1", "feature1", "impulse1", "friction1", "step1"},
+      {"place2", "feature2", "impulse2", "friction2", "step2"},
+      {"place3", "feature3", "impulse3", "friction3", "step3"}};
+  for (int k = 0; k < Manifold::kMaxPoints; ++k) {
+    ManifoldPoint& point = m.points[k];
+    Vec &f = p.friction_impulse[k], &s = p.step_friction_impulse[k];
+    t(kNames[k][0], point.position.x, point.position.y, point.position.z, point.separation);
+    t(kNames[k][1], point.feature);
+    t(kNames[k][2], p.normal_impulse[k], p.step_normal_impulse[k]);
+    t(kNames[k][3], f.x, f.y, f.z);
+    t(kNames[k][4], s.x, s.y, s.z);
+  }
+}
+
+void add_list(Snapshot& out, const char* name, const std::vector<std::uint32_t>& values) {
+  SnapshotColumn column;
+  column.name = name;
+  column.type = SnapshotColumn::Type::Uint64;
+  column.integers.assign(values.begin(), values.end());
+  out.columns.push_back(std::move(column));
+}
+bool read_list(const Snapshot& in, const char* name, std::vector<std::uint32_t>& values, std::size_t limit) {
+  const SnapshotColumn* column = in.find(name);
+  if (column == nullptr || column->type != SnapshotColumn::Type::Uint64) return false;
+  values.clear();
+  for (const std::uint64_t v : column->integers) {
+    if (v >= limit) return false;
+    values.push_back(static_cast<std::uint32_t>(v));
+  }
+  return true;
+}
+
+// Hulls are stored once, whatever the number of colliders that share them.
+void save_hulls(Snapshot& out, const std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
+  SnapshotColumn sizes, numbers;
+  sizes.name = "hull.size";
+  sizes.type = SnapshotColumn::Type::Uint64;
+  numbers.name = "hull.numbers";
+  for (const auto& hull : hulls) {
+    Collider carrier;
+    carrier.shape = ConvexHull{hull};
+    std::vector<double> written;
+    append(written, carrier);
+    sizes.integers.push_back(written.size());
+    numbers.reals.insert(numbers.reals.end(), written.begin(), written.end());
+  }
+  out.columns.push_back(std::move(sizes));
+  out.columns.push_back(std::move(numbers));
+}
+
+bool restore_hulls(const Snapshot& in, std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
+  const SnapshotColumn* sizes = in.find("hull.size");
+  const SnapshotColumn* numbers = in.find("hull.numbers");
+  if (sizes == nullptr || numbers == nullptr) return false;
+  std::size_t at = 0;
+  for (const std::uint64_t size : sizes->integers) {
+    if (size > numbers->reals.size() - at) return false;
+    NumberReader reader(std::span(numbers->reals).subspan(at, size));
+    const Collider carrier = reader.collider();
+    const auto* hull = std::get_if<ConvexHull>(&carrier.shape);
+    if (!reader.complete() || hull == nullptr) return false;
+    hulls.push_back(hull->geometry);
+    at += size;
+  }
+  return at == numbers->reals.size();
+}
+
+ShapeNumbers numbers_of(const Shape& shape, std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
+  ShapeNumbers s;
+  s.type = static_cast<std::uint32_t>(shape.index());
+  const auto set = [&](double a, double b = 0, double c = 0, double d = 0) {
+    s.n[0] = a, s.n[1] = b, s.n[2] = c, s.n[3] = d;
+  };
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    set(static_cast<double>(sphere->radius));
+  } else if (const auto* box = std::get_if<Box>(&shape)) {
+    const Eigen::Vector3d h = box->half_extents.cast<double>();
+    set(h.x(), h.y(), h.z());
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    set(static_cast<double>(capsule->half_length), static_cast<double>(capsule->radius));
+  } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
+    std::size_t k = 0;
+    while (k < hulls.size() && hulls[k] != hull->geometry) ++k;
+    if (k == hulls.size()) hulls.push_back(hull->geometry);
+    s.hull = static_cast<std::uint32_t>(k);
+  } else if (const auto* space = std::get_if<HalfSpace>(&shape)) {
+    const Eigen::Vector3d n = space->normal.cast<double>();
+    set(n.x(), n.y(), n.z(), static_cast<double>(space->offset));
+  }
+  return s;
+}
+
+bool shape_from(const ShapeNumbers& s, const std::vector<std::shared_ptr<const HullGeometry>>& hulls, Shape& out) {
+  const auto real = [&](int i) { return static_cast<Real>(s.n[i]); };
+  switch (s.type) {
+    case 0: out = Sphere{real(0)}; return true;
+    case 1: out = Box{Vec3(real(0), real(1), real(2))}; return true;
+    case 2: out = Capsule{real(0), real(1)}; return true;
+    case 3:
+      if (s.hull >= hulls.size()) return false;
+      out = ConvexHull{hulls[s.hull]};
+      return true;
+    case 4: out = HalfSpace{Vec3(real(0), real(1), real(2)), real(3)}; return true;
+    default: return false;
+  }
+}
+
+// Builds bodies from their table. Dense places are given anew; nothing depends on them.
+bool restore_bodies(const Snapshot& in, WorldState& world) {
+  TableReader table(in, "body");
+  BodyStore& bodies = world.bodies;
+  const std::size_t count = table.rows();
+  std::vector<BodyInfo> infos(count);
+  for (std::size_t slot = 0; slot < count; ++slot) {
+    BodyInfo info;
+    BodyVelocity velocity;
+    BodyPose pose;
+    BodyMomentum momentum;
+    BodyForce force;
+    Real gravity_scale = 1;
+    bool awake = false;
+    table.next_row();
+    visit_body(table, info, velocity, pose, momentum, force, gravity_scale, awake);
+    if (!table.ok()) return false;
+    const std::uint32_t made = bodies.create();  // slots come in ascending order: none is free yet
+    if (made != slot) return false;
+    Eigen::Matrix3d& I = info.properties.I_Bcm_B;
+    I(1, 0) = I(0, 1), I(2, 0) = I(0, 2), I(2, 1) = I(1, 2);
+    info.dense = bodies.info[made].dense;
+    bodies.info[made] = info;
+    bodies.pose[info.dense] = pose;
+    bodies.mass[info.dense].gravity_scale = gravity_scale;
+    bodies.force[info.dense] = force;
+    if (info.alive) {
+      bodies.info[made].has_own_mass = true;  // its colliders are not there yet: the saved mass holds
+      update_mass(world, made);  // the principal moments; the frame was saved and is put back below
+      bodies.info[made].has_own_mass = info.has_own_mass;
+      const std::uint32_t dense = bodies.info[made].dense;
+      if (info.disabled) bodies.mass[dense] = BodyMass{};
+      bodies.info[made].R_BP = info.R_BP;
+      bodies.info[made].center_B = info.center_B;
+      bodies.info[made].properties = info.properties;
+      bodies.pose[dense] = pose;
+      bodies.velocity[dense] = velocity;
+      bodies.momentum[dense] = momentum;
+      if (awake) bodies.wake(made);
+    }
+  }
+  for (std::uint32_t slot = 0; slot < count; ++slot) {
+    if (bodies.info[slot].alive) continue;
+    const std::uint32_t generation = bodies.info[slot].generation;
+    bodies.destroy(slot);
+    bodies.info[slot].generation = generation;
+  }
+  return read_list(in, "body_free.slot", bodies.free_slots, count + 1);
+}
+
+bool restore_colliders(const Snapshot& in, WorldState& world) {
+  std::vector<std::shared_ptr<const HullGeometry>> hulls;
+  if (!restore_hulls(in, hulls)) return false;
+  TableReader table(in, "collider");
+  for (std::size_t slot = 0; slot < table.rows(); ++slot) {
+    ColliderInfo info;
+    ShapeNumbers shape;
+    WorldAabb box{};
+    table.next_row();
+    visit_collider(table, info, shape, box);
+    if (!table.ok()) return false;
+    if (info.alive) {
+      if (info.body >= world.bodies.info.size() || !world.bodies.info[info.body].alive) return false;
+      if (!shape_from(shape, hulls, info.component.shape) || !check_shape(info.component.shape).ok()) return false;
+      info.shape = make_collision_shape(info.component.shape);
+      info.proxy = (info.is_static ? world.static_tree : world.moving_tree).insert(box, static_cast<std::uint32_t>(slot));
+      world.counts.sensors += info.component.is_sensor ? 1 : 0;
+      world.counts.restitution += info.component.material.restitution > 0 ? 1 : 0;
+    }
+    world.colliders.info.push_back(std::move(info));
+  }
+  std::vector<std::uint32_t> order;  // of creation, per body
+  if (!read_list(in, "collider_order.slot", order, world.colliders.info.size())) return false;
+  for (const std::uint32_t slot : order) {
+    if (!world.colliders.info[slot].alive) return false;
+    BodyInfo& owner = world.bodies.info[world.colliders.info[slot].body];
+    owner.colliders.push_back(slot);
+    owner.collider_ids.push_back(world.colliders.id(slot));
+  }
+  for (std::uint32_t body = 0; body < world.bodies.info.size(); ++body)
+    if (world.bodies.info[body].alive) update_collider_frames(world, body);
+  return read_list(in, "collider_free.slot", world.colliders.free_slots, world.colliders.info.size()) &&
+         read_list(in, "collider_query.slot", world.query_list, world.colliders.info.size());
+}
+
+bool restore_pairs(const Snapshot& in, WorldState& world) {
+  std::vector<Pair> awake;
+  TableReader table(in, "pair");
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    Pair pair;
+    std::uint32_t island = kNone;
+    table.next_row();
+    visit_pair(table, pair, island);
+    const auto& colliders = world.colliders.info;
+    if (!table.ok() || pair.collider_a() >= colliders.size() || pair.collider_b() >= colliders.size()) return false;
+    if (!colliders[pair.collider_a()].alive || !colliders[pair.collider_b()].alive) return false;
+    if (colliders[pair.collider_a()].body != pair.body_a || colliders[pair.collider_b()].body != pair.body_b) return false;
+    if (pair.manifold.count < 0 || pair.manifold.count > Manifold::kMaxPoints) return false;
+    if (island == kNone) {
+      if (!awake.empty() && awake.back().key >= pair.key) return false;
+      awake.push_back(pair);
+    } else {
+      if (island >= world.islands.size() || !world.islands[island].used) return false;
+      world.islands[island].pairs.push_back(pair);
+    }
+  }
+  world.pairs.insert_sorted(awake);
+  return true;
+}
+
+bool restore_islands(const Snapshot& in, WorldState& world) {
+  for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
+    const BodyInfo& info = world.bodies.info[slot];
+    if (!info.alive || info.island == kNone) continue;
+    if (info.island >= world.bodies.info.size() + 1) return false;
+    if (info.island >= world.islands.size()) world.islands.resize(info.island + 1);
+    world.islands[info.island].used = true;
+    world.islands[info.island].bodies.push_back(slot);
+  }
+  std::vector<std::uint32_t> used;
+  if (!read_list(in, "island_free.index", world.free_islands, world.bodies.info.size() + 1)) return false;
+  const std::size_t needed = world.free_islands.empty() ? 0
+      : static_cast<std::size_t>(*std::max_element(world.free_islands.begin(), world.free_islands.end())) + 1;
+  if (needed > world.islands.size()) world.islands.resize(needed);
+  return true;
+}
+
+class Digest {
+ public:
+  void add(std::uint64_t word) {  // multiply-rotate mixing of 64-bit words [Steele 2014]
+    state_ = std::rotl(state_ ^ (word * 0x9e3779b97f4a7c15u), 29) * 0xbf58476d1ce4e5b9u;
+  }
+  void add(float v) { add(std::uint64_t{std::bit_cast<std::uint32_t>(v)}); }
+  void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
+  template <class T>
+  void add(Vector3<T> v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  }
+  [[nodiscard]] std::uint64_t value() const {
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+
+ private:
+  std::uint64_t state_ = 0x2545f4914f6cdd1du;
+};
+
+}  // namespace
+}  // namespace detail
+
+Snapshot PhysicsWorld::save() const {
+  using namespace detail;
+  WorldState& world = *state_;  // the visitors serve both directions; saving writes nothing
+  Snapshot out;
+  out.precision = kPrecisionName;
+  {
+    TableWriter table(out, "world");
+    table.next_row();
+    visit_world(table, world);
+  }
+  {
+    TableWriter table(out, "body");
+    for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
+      BodyInfo info = world.bodies.info[slot];
+      const std::uint32_t dense = info.alive ? info.dense : 0;
+      BodyVelocity velocity = world.bodies.velocity[dense];
+      BodyPose pose = world.bodies.pose[dense];
+      BodyMomentum momentum = world.bodies.momentum[dense];
+      BodyForce force = world.bodies.force[dense];
+      Real gravity_scale = world.bodies.mass[dense].gravity_scale;
+      bool awake = info.alive && world.bodies.is_awake(slot);
+      table.next_row();
+      visit_body(table, info, velocity, pose, momentum, force, gravity_scale, awake);
+    }
+  }
+  add_list(out, "body_free.slot", world.bodies.free_slots);
+  std::vector<std::shared_ptr<const HullGeometry>> hulls;
+  {
+    TableWriter table(out, "collider");
+    for (ColliderInfo info : world.colliders.info) {
+      ShapeNumbers shape = numbers_of(info.component.shape, hulls);
+      const AabbTree& tree = info.is_static ? world.static_tree : world.moving_tree;
+      WorldAabb box = info.alive ? tree.box(info.proxy) : WorldAabb{};
+      table.next_row();
+      visit_collider(table, info, shape, box);
+    }
+  }
+  save_hulls(out, hulls);
+  std::vector<std::uint32_t> order;
+  for (const BodyInfo& info : world.bodies.info) order.insert(order.end(), info.colliders.begin(), info.colliders.end());
+  add_list(out, "collider_order.slot", order);
+  add_list(out, "collider_free.slot", world.colliders.free_slots);
+  add_list(out, "collider_query.slot", world.query_list);
+  add_list(out, "body_touched.slot", world.touched);
+  add_list(out, "island_free.index", world.free_islands);
+  {
+    TableWriter table(out, "pair");
+    std::uint32_t island = kNone;
+    const auto write = [&](Pair pair) {
+      table.next_row();
+      visit_pair(table, pair, island);
+    };
+    for (std::size_t i = 0; i < world.pairs.size(); ++i) write(world.pairs[i]);
+    for (island = 0; island < world.islands.size(); ++island)
+      for (const Pair& pair : world.islands[island].pairs) write(pair);
+  }
+  return out;
+}
+
+Status PhysicsWorld::restore(const Snapshot& snapshot) {
+  using namespace detail;
+  if (state_->stepping) return {StatusCode::InsideStep, "restore() was called while the world steps"};
+  if (snapshot.schema_version != Snapshot::kSchemaVersion)
+    return {StatusCode::BadSnapshot, "the snapshot has another schema version than this build reads"};
+  if (snapshot.precision != kPrecisionName)
+    return {StatusCode::BadSnapshot, "the snapshot was taken by a build of another precision (f32, f32d, f64)"};
+  auto made = std::make_unique<WorldState>();
+  const Status damaged{StatusCode::BadSnapshot, "the snapshot is damaged: its columns do not fit together"};
+  TableReader table(snapshot, "world");
+  table.next_row();
+  visit_world(table, *made);
+  if (!table.ok() || !check(made->settings).ok()) return damaged;
+  if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) || !restore_islands(snapshot, *made) ||
+      !restore_pairs(snapshot, *made) ||
+      !read_list(snapshot, "body_touched.slot", made->touched, made->bodies.info.size()))
+    return damaged;
+  made->jobs = state_->jobs;
+  made->observers = state_->observers;
+  state_ = std::move(made);
+  return {};
+}
+
+std::uint64_t PhysicsWorld::state_hash() const {
+  using namespace detail;
+  const WorldState& world = *state_;
+  Digest digest;
+  for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
+    const BodyInfo& info = world.bodies.info[slot];
+    if (!info.alive) continue;
+    const BodyPose& pose = world.bodies.pose[info.dense];
+    digest.add(std::uint64_t{info.generation} << 32 | slot);
+    digest.add(pose.x);
+    digest.add(Vec{pose.q.x, pose.q.y, pose.q.z});
+    digest.add(pose.q.w);
+    digest.add(world.bodies.velocity[info.dense].v);
+    digest.add(world.bodies.velocity[info.dense].w);
+    digest.add(world.bodies.momentum[info.dense].L);
+    digest.add(info.rest_time);
+    digest.add(std::uint64_t{world.bodies.is_awake(slot)} << 1 | std::uint64_t{info.disabled});
+  }
+  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
+    const Pair& pair = world.pairs[i];
+    digest.add(pair.key);
+    digest.add(static_cast<std::uint64_t>(pair.manifold.count));
+    for (int k = 0; k < pair.manifold.count; ++k) {
+      digest.add(pair.normal_impulse[k]);
+      digest.add(pair.friction_impulse[k]);
+    }
+  }
+  return digest.value();
+}
+
+}  // namespace plumb::inline PLUMB_ABI

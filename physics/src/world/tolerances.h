@@ -1,0 +1,58 @@
+// Every tolerance of the step that a user should not have to choose: unit, range, default, reason.
+// Lengths derive from shape size and time step, so that a 1 mm and a 10 km body behave alike.
+#pragma once
+
+#include "plumb/precision.h"
+
+namespace plumb::inline PLUMB_ABI::detail::tolerance {
+
+// Overlap that a resting contact keeps, as a fraction of the smaller body's smallest thickness [-].
+// 0.002: 2 mm for a 1 m box. Without it resting points flicker between touching and not.
+inline constexpr Real kSlopFraction = Real(0.002);
+
+// Contact points are made this many slops before the surfaces meet [-], so that a manifold keeps all
+// its points while a body rocks by less than the slop.
+inline constexpr Real kMarginSlops = Real(4);
+
+// Boxes in the broadphase are grown by this fraction of the body's smallest thickness [-]. Larger:
+// fewer tree updates, more false pairs.
+inline constexpr Real kFatBoxFraction = Real(0.1);
+// ... and reach ahead by the distance of this many steps [-], so that a fast body re-enters the tree
+// every few steps only.
+inline constexpr Real kFatBoxSteps = Real(2);
+
+// Overlap is worked off no faster than this many thicknesses a second [1/s]. 3: a 1 m box leaves the
+// ground at 3 m/s at most, however deep it was born in it.
+inline constexpr Real kPushRate = Real(3);
+
+// Contacts with static or kinematic bodies are this much stiffer than those between dynamic ones [-]
+// so that the ground yields last. [Catto 2024]
+inline constexpr Real kStaticStiffness = Real(2);
+
+// An approach slower than this many g h (h: substep) does not bounce [-]. A pair at rest gains g h a
+// substep, so that anything below is noise; a pair that was at rest needs more, because an
+// unconverged solver leaves several g h.
+inline constexpr Real kBounceCutNew = Real(0.25);
+inline constexpr Real kBounceCutResting = Real(8);
+// A pair bounces at most so often within one substep [-]; after that it is treated as inelastic.
+// Ends the infinite series of bounces of a ball between two closing walls.
+inline constexpr int kMaxBouncesPerSubstep = 16;
+// Passes over the bouncing pairs of one substep [-]; a row of n touching balls needs about n.
+inline constexpr int kMaxImpactPasses = 64;
+
+// A body counts as being at rest below this fraction of sqrt(g d) [-], d its size: the speed it would
+// have after falling 1e-4 d. 0.014 sqrt(9.81 * 1) = 4.4 cm/s for a 1 m body.
+inline constexpr Real kRestSpeedFraction = Real(0.014);
+// Without gravity: this many sizes a second [1/s].
+inline constexpr Real kRestSizesPerSecond = Real(1e-3);
+
+// A normal impulse below this fraction of m g h counts as none [-] when it is asked whether the set
+// of loaded contact points changed (rounding leaves such impulses in bodies that fall together).
+inline constexpr Real kLoadedFraction = Real(1e-6);
+
+// Bodies per chunk of a parallel loop [-]: 256 records of 32 bytes are 8 kB, no shared cache line.
+inline constexpr unsigned kBodyGrain = 256;
+inline constexpr unsigned kPairGrain = 64;
+inline constexpr unsigned kRowGrain = 64;
+
+}  // namespace plumb::inline PLUMB_ABI::detail::tolerance

@@ -1,0 +1,59 @@
+#include "world/validate.h"
+
+#include "collision/collision_shape.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace detail {
+
+Status check_body(const RigidBody& body) {
+  if (const Status status = check_pose(body.pose); !status) return status;
+  if (!all_finite(body.linear_velocity)) return {StatusCode::NotFinite, "linear velocity is not finite [m/s]"};
+  if (!all_finite(body.angular_velocity)) return {StatusCode::NotFinite, "angular velocity is not finite [rad/s]"};
+  if (!std::isfinite(body.linear_damping) || body.linear_damping < 0)
+    return {StatusCode::OutOfRange, "linear damping must be finite and not negative [1/s]"};
+  if (!std::isfinite(body.angular_damping) || body.angular_damping < 0)
+    return {StatusCode::OutOfRange, "angular damping must be finite and not negative [1/s]"};
+  if (!std::isfinite(body.gravity_scale)) return {StatusCode::NotFinite, "gravity scale is not finite"};
+  if (body.type != MotionType::Static && body.type != MotionType::Kinematic && body.type != MotionType::Dynamic)
+    return {StatusCode::OutOfRange, "motion type must be Static, Kinematic or Dynamic"};
+  if (body.type == MotionType::Static &&
+      (body.linear_velocity.squaredNorm() > 0 || body.angular_velocity.squaredNorm() > 0))
+    return {StatusCode::WrongMotionType, "a static body cannot have a velocity: make it kinematic"};
+  if (body.mass.has_value()) return check(*body.mass);
+  return {};
+}
+
+Status check_collider(const Collider& collider, MotionType type) {
+  if (const Status status = check_shape(collider.shape); !status) return status;
+  if (!all_finite(collider.pose.position)) return {StatusCode::NotFinite, "collider position is not finite [m]"};
+  if (const Status status = check_orientation(collider.pose.orientation); !status) return status;
+  const Material& m = collider.material;
+  if (!std::isfinite(m.friction) || m.friction < 0)
+    return {StatusCode::OutOfRange, "friction must be finite and not negative"};
+  if (!std::isfinite(m.restitution) || m.restitution < 0 || m.restitution > 1)
+    return {StatusCode::OutOfRange, "restitution must lie in 0..1"};
+  if (!std::isfinite(collider.density) || collider.density < 0)
+    return {StatusCode::OutOfRange, "density must be finite and not negative [kg/m^3]"};
+  if (std::holds_alternative<HalfSpace>(collider.shape) && type != MotionType::Static)
+    return {StatusCode::BadShape, "a half-space has no end and no mass: only static bodies may have one"};
+  return {};
+}
+
+}  // namespace detail
+
+Status check(const WorldSettings& s) {
+  if (!s.gravity.allFinite()) return {StatusCode::NotFinite, "gravity is not finite [m/s^2]"};
+  if (s.substeps < 1 || s.substeps > 64) return {StatusCode::OutOfRange, "substeps must lie in 1..64"};
+  if (!std::isfinite(s.contact_frequency) || s.contact_frequency <= 0)
+    return {StatusCode::OutOfRange, "contact frequency must be finite and positive [Hz]"};
+  if (!std::isfinite(s.contact_damping_ratio) || s.contact_damping_ratio < 0)
+    return {StatusCode::OutOfRange, "contact damping ratio must be finite and not negative"};
+  if (!std::isfinite(s.time_to_sleep) || s.time_to_sleep < 0)
+    return {StatusCode::OutOfRange, "time to sleep must be finite and not negative [s]"};
+  if (s.rotation != RotationMethod::Exact && s.rotation != RotationMethod::ImplicitGyro &&
+      s.rotation != RotationMethod::Book)
+    return {StatusCode::OutOfRange, "rotation method is none of Exact, ImplicitGyro, Book"};
+  return {};
+}
+
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,204 @@
+// Building and taking apart: bodies, colliders, settings.
+#include <algorithm>
+
+#include "math/eigen_bridge.h"
+#include "motion/body_motion.h"
+#include "world/inputs.h"
+#include "world/validate.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace detail {
+namespace {
+
+void end_pair(WorldState& world, const Pair& pair) {
+  if (!pair.was_touching) return;
+  const ColliderId a = world.colliders.id(pair.collider_a()), b = world.colliders.id(pair.collider_b());
+  if (pair.sensor) {
+    const bool a_senses = world.colliders.info[a.index].component.is_sensor;
+    world.gathering.sensors.push_back({SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
+  } else {
+    world.gathering.contacts.push_back({ContactEvent::Kind::End, a, b,
+                                        {pair.body_a, world.bodies.info[pair.body_a].generation},
+                                        {pair.body_b, world.bodies.info[pair.body_b].generation}});
+  }
+}
+
+void count_collider(WorldState& world, const Collider& component, std::uint32_t change) {
+  if (component.is_sensor) world.counts.sensors += change;
+  if (component.material.restitution > 0) world.counts.restitution += change;
+}
+
+void remove_collider(WorldState& world, std::uint32_t slot) {
+  ColliderInfo& collider = world.colliders.info[slot];
+  BodyInfo& owner = world.bodies.info[collider.body];
+  world.pairs.remove_if([&](const Pair& pair) {
+    if (pair.collider_a() != slot && pair.collider_b() != slot) return false;
+    end_pair(world, pair);
+    return true;
+  });
+  (collider.is_static ? world.static_tree : world.moving_tree).remove(collider.proxy);
+  std::erase(owner.colliders, slot);
+  std::erase_if(owner.collider_ids, [slot](ColliderId id) { return id.index == slot; });
+  std::erase(world.query_list, slot);
+  count_collider(world, collider.component, static_cast<std::uint32_t>(-1));
+  world.colliders.destroy(slot);
+}
+
+}  // namespace
+}  // namespace detail
+
+PhysicsWorld::PhysicsWorld(const WorldSettings& settings) : state_(std::make_unique<detail::WorldState>()) {
+  if (check(settings).ok()) state_->settings = settings;
+}
+PhysicsWorld::~PhysicsWorld() = default;
+PhysicsWorld::PhysicsWorld(PhysicsWorld&&) noexcept = default;
+PhysicsWorld& PhysicsWorld::operator=(PhysicsWorld&&) noexcept = default;
+
+Created<BodyId> PhysicsWorld::create_body(const RigidBody& body) {
+  detail::WorldState& world = *state_;
+  if (world.stepping) return {{}, detail::inside_step()};
+  if (const Status status = detail::check_body(body); !status) return {{}, status};
+  detail::note_input(world, InputKind::CreateBody, 0, [&](auto& out) { detail::append(out, body); });
+
+  const std::uint32_t slot = world.bodies.create();
+  detail::BodyInfo& info = world.bodies.info[slot];
+  const std::uint32_t dense = info.dense;
+  info.type = body.type;
+  info.locks = body.locks;
+  info.can_sleep = body.can_sleep;
+  info.user_data = body.user_data;
+  if (body.mass.has_value()) {
+    info.has_own_mass = true;
+    info.properties = *body.mass;
+  }
+  world.bodies.pose[dense].x = detail::to_inner_position(body.pose.position);
+  world.bodies.pose[dense].q = detail::normalized(detail::to_inner(body.pose.orientation));
+  world.bodies.mass[dense].gravity_scale = body.gravity_scale;
+  world.bodies.force[dense].linear_damping = body.linear_damping;
+  world.bodies.force[dense].angular_damping = body.angular_damping;
+  detail::update_mass(world, slot);
+  detail::BodyVelocity& velocity = world.bodies.velocity[dense];
+  const MotionLocks& k = body.locks;
+  velocity.v = {k.linear_x ? Real(0) : body.linear_velocity.x(), k.linear_y ? Real(0) : body.linear_velocity.y(),
+                k.linear_z ? Real(0) : body.linear_velocity.z()};
+  velocity.w = {k.angular_x ? Real(0) : body.angular_velocity.x(), k.angular_y ? Real(0) : body.angular_velocity.y(),
+                k.angular_z ? Real(0) : body.angular_velocity.z()};
+  world.bodies.momentum[dense].L =
+      detail::angular_momentum_of(world.bodies.mass[dense], world.bodies.pose[dense].q, velocity.w);
+  const bool moves = body.type == MotionType::Dynamic ||
+                     (body.type == MotionType::Kinematic &&
+                      (body.linear_velocity.squaredNorm() > 0 || body.angular_velocity.squaredNorm() > 0));
+  if (moves) world.bodies.wake(slot);
+  const BodyId id{slot, info.generation};
+  if (body.type == MotionType::Dynamic && !body.starts_awake) detail::put_to_sleep(world, slot);
+  return {id, {}};
+}
+
+Status PhysicsWorld::destroy_body(BodyId body) {
+  detail::WorldState& world = *state_;
+  if (world.stepping) return detail::inside_step();
+  if (!is_valid(body)) return detail::stale_body();
+  detail::note_input(world, InputKind::DestroyBody, body.value(), [](auto&) {});
+  const std::uint32_t slot = body.index;
+  detail::wake_body(world, slot);
+  detail::wake_around(world, slot);
+  const std::vector<std::uint32_t> colliders = world.bodies.info[slot].colliders;
+  for (const std::uint32_t collider : colliders) detail::remove_collider(world, collider);
+  std::erase(world.moved, slot);
+  world.bodies.destroy(slot);
+  return {};
+}
+
+Created<ColliderId> PhysicsWorld::create_collider(BodyId body, const Collider& collider) {
+  detail::WorldState& world = *state_;
+  if (world.stepping) return {{}, detail::inside_step()};
+  if (!is_valid(body)) return {{}, detail::stale_body()};
+  detail::BodyInfo& owner = world.bodies.info[body.index];
+  if (const Status status = detail::check_collider(collider, owner.type); !status) return {{}, status};
+  // The mass that the body would have must be that of a body, and fit the number type.
+  if (owner.type == MotionType::Dynamic && !owner.has_own_mass && !collider.is_sensor && collider.density > 0) {
+    const ShapeMass added = mass_of(collider.shape, collider.density);
+    if (!added.status.ok()) return {{}, added.status};
+    if (const Status status = check(added.properties); !status) return {{}, status};
+  }
+  detail::note_input(world, InputKind::CreateCollider, body.value(), [&](auto& out) { detail::append(out, collider); });
+
+  const std::uint32_t slot = world.colliders.create();
+  detail::ColliderInfo& info = world.colliders.info[slot];
+  info.body = body.index;
+  info.component = collider;
+  info.component.pose.orientation.normalize();
+  info.shape = detail::make_collision_shape(collider.shape);
+  info.is_static = owner.type == MotionType::Static;
+  owner.colliders.push_back(slot);
+  owner.collider_ids.push_back(world.colliders.id(slot));
+  detail::count_collider(world, collider, 1);
+  if (owner.type == MotionType::Dynamic && owner.island != detail::kNone) detail::wake_body(world, body.index);
+  if (owner.has_own_mass || collider.is_sensor || collider.density == 0) {
+    detail::update_collider_frames(world, body.index);
+  } else {
+    detail::update_mass(world, body.index);
+  }
+  for (const std::uint32_t other : owner.colliders) detail::update_proxy(world, other, true);
+  detail::wake_around(world, body.index);
+  return {world.colliders.id(slot), {}};
+}
+
+Status PhysicsWorld::destroy_collider(ColliderId collider) {
+  detail::WorldState& world = *state_;
+  if (world.stepping) return detail::inside_step();
+  if (!is_valid(collider)) return detail::stale_collider();
+  detail::note_input(world, InputKind::DestroyCollider, collider.value(), [](auto&) {});
+  const std::uint32_t body = world.colliders.info[collider.index].body;
+  detail::wake_body(world, body);
+  detail::wake_around(world, body);
+  detail::remove_collider(world, collider.index);
+  detail::update_mass(world, body);
+  for (const std::uint32_t other : world.bodies.info[body].colliders) detail::update_proxy(world, other, true);
+  return {};
+}
+
+Status PhysicsWorld::set_settings(const WorldSettings& settings) {
+  detail::WorldState& world = *state_;
+  if (world.stepping) return detail::inside_step();
+  if (const Status status = check(settings); !status) return status;
+  detail::note_input(world, InputKind::SetSettings, 0, [&](auto& out) { detail::append(out, settings); });
+  const bool wake_all = settings.gravity != world.settings.gravity || !settings.sleeping;
+  world.settings = settings;
+  if (wake_all) {
+    for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot)
+      if (world.bodies.info[slot].alive && world.bodies.info[slot].island != detail::kNone) detail::wake_body(world, slot);
+  }
+  return {};
+}
+
+Status PhysicsWorld::set_mass(BodyId body, const MassProperties& properties) {
+  detail::WorldState& world = *state_;
+  if (world.stepping) return detail::inside_step();
+  if (!is_valid(body)) return detail::stale_body();
+  if (world.bodies.info[body.index].type != MotionType::Dynamic)
+    return {StatusCode::WrongMotionType, "only dynamic bodies have a mass"};
+  if (const Status status = check(properties); !status) return status;
+  detail::note_input(world, InputKind::SetMass, body.value(), [&](auto& out) { detail::append(out, properties); });
+  detail::BodyInfo& info = world.bodies.info[body.index];
+  detail::wake_body(world, body.index);
+  info.has_own_mass = true;
+  info.properties = properties;
+  detail::update_mass(world, body.index);
+  for (const std::uint32_t collider : info.colliders) detail::update_proxy(world, collider, true);
+  return {};
+}
+
+void PhysicsWorld::set_job_system(JobSystem* jobs) { state_->jobs = jobs; }
+
+void PhysicsWorld::attach(StepObserver* observer) {
+  if (observer == nullptr) return;
+  state_->observers.push_back(observer);
+  observer->on_attach(*this);
+}
+void PhysicsWorld::detach(StepObserver* observer) {
+  std::erase(state_->observers, observer);
+  if (state_->observers.empty()) state_->inputs.clear();
+}
+
+}  // namespace plumb::inline PLUMB_ABI

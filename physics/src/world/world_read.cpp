@@ -1,0 +1,235 @@
+// Reading a world: states, contacts, energy, queries.
+#include <algorithm>
+
+#include "collision/collide.h"
+#include "math/eigen_bridge.h"
+#include "motion/body_motion.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace detail {
+namespace {
+
+Pose pose_of(const WorldState& world, const BodyInfo& info) {
+  const BodyPose& inner = world.bodies.pose[info.dense];
+  const Rotation R_WB = inner.q * conjugate(info.R_BP);
+  Pose pose;
+  pose.orientation = to_public(R_WB);
+  pose.position = to_public_position(inner.x - cast<PosReal>(rotate(R_WB, info.center_B)));
+  return pose;
+}
+
+BodyState state_of(const WorldState& world, std::uint32_t slot) {
+  const BodyInfo& info = world.bodies.info[slot];
+  BodyState state;
+  state.id = {slot, info.generation};
+  state.type = info.type;
+  state.awake = world.bodies.is_awake(slot);
+  state.pose = pose_of(world, info);
+  state.linear_velocity = to_public(world.bodies.velocity[info.dense].v);
+  state.angular_velocity = to_public(world.bodies.velocity[info.dense].w);
+  state.user_data = info.user_data;
+  return state;
+}
+
+void append_contact(const WorldState& world, const Pair& pair, std::vector<ContactState>& out) {
+  if (pair.sensor || !pair.was_touching) return;
+  ContactState contact;
+  contact.a = world.colliders.id(pair.collider_a());
+  contact.b = world.colliders.id(pair.collider_b());
+  contact.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
+  contact.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
+  contact.normal = to_public(pair.manifold.normal);
+  contact.point_count = pair.manifold.count;
+  const std::uint32_t reference = world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
+  for (int i = 0; i < pair.manifold.count; ++i) {
+    ContactState::Point& point = contact.points[i];
+    point.position = to_public_position(world.bodies.pose[reference].x + cast<PosReal>(pair.manifold.points[i].position));
+    point.separation = pair.manifold.points[i].separation;
+    point.normal_impulse = pair.step_normal_impulse[i];
+    point.friction_impulse = to_public(pair.step_friction_impulse[i]);
+  }
+  out.push_back(contact);
+}
+
+}  // namespace
+}  // namespace detail
+
+bool PhysicsWorld::is_valid(BodyId body) const {
+  const auto& info = state_->bodies.info;
+  return body.index < info.size() && info[body.index].alive && info[body.index].generation == body.generation;
+}
+bool PhysicsWorld::is_valid(ColliderId collider) const {
+  const auto& info = state_->colliders.info;
+  return collider.index < info.size() && info[collider.index].alive && info[collider.index].generation == collider.generation;
+}
+BodyState PhysicsWorld::state(BodyId body) const {
+  return is_valid(body) ? detail::state_of(*state_, body.index) : BodyState{};
+}
+Pose PhysicsWorld::pose(BodyId body) const {
+  return is_valid(body) ? detail::pose_of(*state_, state_->bodies.info[body.index]) : Pose{};
+}
+Vec3 PhysicsWorld::linear_velocity(BodyId body) const {
+  if (!is_valid(body)) return Vec3::Zero();
+  return detail::to_public(state_->bodies.velocity[state_->bodies.info[body.index].dense].v);
+}
+Vec3 PhysicsWorld::angular_velocity(BodyId body) const {
+  if (!is_valid(body)) return Vec3::Zero();
+  return detail::to_public(state_->bodies.velocity[state_->bodies.info[body.index].dense].w);
+}
+Vec3 PhysicsWorld::velocity_at(BodyId body, const Pos3& p_W) const {
+  if (!is_valid(body)) return Vec3::Zero();
+  const std::uint32_t dense = state_->bodies.info[body.index].dense;
+  const detail::BodyVelocity& velocity = state_->bodies.velocity[dense];
+  const detail::Vec arm = detail::cast<Real>(detail::to_inner_position(p_W) - state_->bodies.pose[dense].x);
+  return detail::to_public(velocity.v + cross(velocity.w, arm));
+}
+Vec3 PhysicsWorld::angular_momentum(BodyId body) const {
+  if (!is_valid(body)) return Vec3::Zero();
+  return detail::to_public(state_->bodies.momentum[state_->bodies.info[body.index].dense].L);
+}
+Pos3 PhysicsWorld::center_of_mass(BodyId body) const {
+  if (!is_valid(body)) return Pos3::Zero();
+  return detail::to_public_position(state_->bodies.pose[state_->bodies.info[body.index].dense].x);
+}
+Vec3 PhysicsWorld::last_acceleration(BodyId body) const {
+  return is_valid(body) ? detail::to_public(state_->bodies.info[body.index].acceleration) : Vec3::Zero();
+}
+MassProperties PhysicsWorld::mass_properties(BodyId body) const {
+  if (!is_valid(body) || state_->bodies.info[body.index].type != MotionType::Dynamic) return {};
+  return state_->bodies.info[body.index].properties;
+}
+bool PhysicsWorld::is_awake(BodyId body) const { return is_valid(body) && state_->bodies.is_awake(body.index); }
+std::span<const ColliderId> PhysicsWorld::colliders_of(BodyId body) const {
+  if (!is_valid(body)) return {};
+  return state_->bodies.info[body.index].collider_ids;
+}
+BodyId PhysicsWorld::body_of(ColliderId collider) const {
+  if (!is_valid(collider)) return {};
+  const std::uint32_t slot = state_->colliders.info[collider.index].body;
+  return {slot, state_->bodies.info[slot].generation};
+}
+Collider PhysicsWorld::collider(ColliderId collider) const {
+  return is_valid(collider) ? state_->colliders.info[collider.index].component : Collider{};
+}
+RigidBody PhysicsWorld::body(BodyId body) const {
+  RigidBody out;
+  if (!is_valid(body)) return out;
+  const detail::BodyInfo& info = state_->bodies.info[body.index];
+  const detail::BodyForce& force = state_->bodies.force[info.dense];
+  out.type = info.type;
+  out.pose = pose(body);
+  out.linear_velocity = linear_velocity(body);
+  out.angular_velocity = angular_velocity(body);
+  if (info.has_own_mass) out.mass = info.properties;
+  out.locks = info.locks;
+  out.linear_damping = force.linear_damping;
+  out.angular_damping = force.angular_damping;
+  out.gravity_scale = state_->bodies.mass[info.dense].gravity_scale;
+  out.can_sleep = info.can_sleep;
+  out.starts_awake = info.type != MotionType::Dynamic || is_awake(body);
+  out.user_data = info.user_data;
+  return out;
+}
+std::size_t PhysicsWorld::body_count() const { return state_->bodies.alive_count; }
+const WorldSettings& PhysicsWorld::settings() const { return state_->settings; }
+double PhysicsWorld::time() const { return state_->time; }
+std::uint64_t PhysicsWorld::step_count() const { return state_->step_count; }
+const StepReport& PhysicsWorld::last_report() const { return state_->report; }
+Events PhysicsWorld::events() const {
+  const detail::EventLists& lists = state_->published;
+  return {lists.contacts, lists.hits, lists.sensors, lists.sleep, lists.quarantined};
+}
+
+void PhysicsWorld::copy_body_states(std::vector<BodyState>& out) const {
+  out.clear();
+  for (std::uint32_t slot = 0; slot < state_->bodies.info.size(); ++slot)
+    if (state_->bodies.info[slot].alive) out.push_back(detail::state_of(*state_, slot));
+}
+void PhysicsWorld::copy_moved_body_states(std::vector<BodyState>& out) const {
+  out.clear();
+  for (const std::uint32_t slot : state_->moved) out.push_back(detail::state_of(*state_, slot));
+}
+void PhysicsWorld::copy_contacts(std::vector<ContactState>& out) const {
+  out.clear();
+  for (std::size_t i = 0; i < state_->pairs.size(); ++i) detail::append_contact(*state_, state_->pairs[i], out);
+  for (const detail::SleepingIsland& island : state_->islands)
+    for (const detail::Pair& pair : island.pairs) detail::append_contact(*state_, pair, out);
+}
+
+EnergyReport PhysicsWorld::energy() const {
+  EnergyReport sum;
+  const Eigen::Vector3d g = state_->settings.gravity.cast<double>();
+  const detail::BodyStore& bodies = state_->bodies;
+  for (const detail::BodyInfo& info : bodies.info) {
+    if (!info.alive || info.type != MotionType::Dynamic || info.disabled) continue;
+    const detail::BodyMass& m = bodies.mass[info.dense];
+    const double mass = info.properties.mass;
+    const Eigen::Vector3d v = detail::to_public(bodies.velocity[info.dense].v).cast<double>();
+    const Eigen::Vector3d w = detail::to_public(bodies.velocity[info.dense].w).cast<double>();
+    const Eigen::Vector3d L = detail::to_public(bodies.momentum[info.dense].L).cast<double>();
+    const Eigen::Vector3d x = detail::to_public_position(bodies.pose[info.dense].x).cast<double>();
+    sum.kinetic_linear += 0.5 * mass * v.squaredNorm();
+    sum.kinetic_angular += 0.5 * w.dot(L);
+    sum.potential -= mass * static_cast<double>(m.gravity_scale) * g.dot(x);
+    sum.momentum += mass * v;
+    sum.angular_momentum += L + mass * x.cross(v);
+  }
+  return sum;
+}
+
+std::optional<RayHitResult> PhysicsWorld::cast_ray(const Pos3& origin, const Vec3& translation,
+                                                   std::uint32_t layers) const {
+  if (!origin.allFinite() || !translation.allFinite()) return std::nullopt;
+  const detail::WorldState& world = *state_;
+  const detail::PosVec start = detail::to_inner_position(origin);
+  const detail::Vec path = detail::to_inner(translation);
+  std::optional<RayHitResult> nearest;
+  const auto visit = [&](std::uint32_t slot, PosReal max_fraction) -> PosReal {
+    const detail::ColliderInfo& collider = world.colliders.info[slot];
+    if (collider.component.is_sensor || (collider.component.filter.layers & layers) == 0) return max_fraction;
+    const detail::BodyPose& pose = world.bodies.pose[world.bodies.info[collider.body].dense];
+    // Relative to the shape, so that single precision holds far from the world's origin.
+    const detail::PosVec center = pose.x + detail::cast<PosReal>(rotate(pose.q, collider.in_body.p));
+    const detail::Transform placed{{0, 0, 0}, pose.q * collider.in_body.q};
+    detail::RayHit hit;
+    if (!detail::cast_ray(collider.shape, placed, detail::cast<Real>(start - center), path,
+                          static_cast<Real>(max_fraction), hit))
+      return max_fraction;
+    // Of two at the same distance the smaller index wins, whatever the order of the tree.
+    if (nearest.has_value() && hit.fraction == nearest->fraction && nearest->collider.index < slot) return max_fraction;
+    RayHitResult result;
+    result.collider = world.colliders.id(slot);
+    result.body = {collider.body, world.bodies.info[collider.body].generation};
+    result.fraction = hit.fraction;
+    result.normal = detail::to_public(hit.normal);
+    result.point = detail::to_public_position(start + detail::cast<PosReal>(hit.fraction * path));
+    nearest = result;
+    return static_cast<PosReal>(hit.fraction) > PosReal(0) ? static_cast<PosReal>(hit.fraction) : max_fraction;
+  };
+  world.static_tree.cast_ray(start, detail::cast<PosReal>(path), PosReal(1), visit);
+  world.moving_tree.cast_ray(start, detail::cast<PosReal>(path),
+                             nearest.has_value() ? static_cast<PosReal>(nearest->fraction) : PosReal(1), visit);
+  return nearest;
+}
+
+void PhysicsWorld::overlap_bounds(const Bounds& box, std::vector<ColliderId>& out, std::uint32_t layers) const {
+  out.clear();
+  if (!box.lower.allFinite() || !box.upper.allFinite()) return;
+  const detail::WorldState& world = *state_;
+  const detail::WorldAabb sought{detail::to_inner_position(box.lower), detail::to_inner_position(box.upper)};
+  const auto visit = [&](std::uint32_t slot) {
+    const detail::ColliderInfo& collider = world.colliders.info[slot];
+    if ((collider.component.filter.layers & layers) == 0) return;
+    const detail::BodyPose& pose = world.bodies.pose[world.bodies.info[collider.body].dense];
+    const detail::Transform placed{rotate(pose.q, collider.in_body.p), pose.q * collider.in_body.q};
+    const detail::Aabb tight = bounds_of(collider.shape, placed);
+    const detail::WorldAabb bounds{pose.x + detail::cast<PosReal>(tight.lower), pose.x + detail::cast<PosReal>(tight.upper)};
+    if (overlaps(sought, bounds)) out.push_back(world.colliders.id(slot));
+  };
+  world.static_tree.query(sought, visit);
+  world.moving_tree.query(sought, visit);
+  std::sort(out.begin(), out.end());
+}
+
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,140 @@
+// All that a world is: its pools, and the scratch lists of the running step.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision/aabb_tree.h"
+#include "plumb/world.h"
+#include "math/eigen_bridge.h"
+#include "solver/contact_row.h"
+#include "world/body_store.h"
+#include "world/collider_store.h"
+#include "world/pair_store.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+// Bodies that fell asleep together, with the contacts among them and their supports.
+struct SleepingIsland {
+  bool used = false;
+  std::vector<std::uint32_t> bodies;  // slots, ascending
+  std::vector<Pair> pairs;            // by key
+};
+
+struct EventLists {
+  std::vector<ContactEvent> contacts;
+  std::vector<HitEvent> hits;
+  std::vector<SensorEvent> sensors;
+  std::vector<SleepEvent> sleep;
+  std::vector<QuarantineEvent> quarantined;
+  void clear() {
+    contacts.clear();
+    hits.clear();
+    sensors.clear();
+    sleep.clear();
+    quarantined.clear();
+  }
+};
+
+// Which work the running step has, decided once at its start from a few counts.
+struct StepFlags {
+  bool gravity = false;
+  bool sleeping = false;
+  bool sensors = false;
+};
+
+// Counts by which the plan knows what a scene calls for; kept up to date when bodies and colliders
+// come, go and change, so that planning a step takes a few integer tests.
+struct SceneCounts {
+  std::uint32_t sensors = 0;
+  std::uint32_t restitution = 0;  // colliders with restitution > 0
+};
+
+// One colour: rows among which no two share a dynamic body.
+struct ColorRange {
+  std::uint32_t begin, end;
+};
+
+struct WorldState {
+  WorldSettings settings;
+  BodyStore bodies;
+  ColliderStore colliders;
+  AabbTree static_tree, moving_tree;
+  PairStore pairs;
+  std::vector<SleepingIsland> islands;
+  std::vector<std::uint32_t> free_islands;
+  SceneCounts counts;
+  JobSystem* jobs = nullptr;
+  std::vector<StepObserver*> observers;
+  std::vector<InputRecord> inputs;  // since the last step; kept only while somebody observes
+  bool stepping = false;
+  bool replaying_input = false;
+  double time = 0;
+  std::uint64_t step_count = 0;
+  StepReport report;
+
+  // --- scratch of the running step (kept between steps for its storage) ---
+  StepFlags flags;
+  Real dt = 0, h = 0;   // [s] step, substep
+  Real proxy_dt = 0;    // [s] step for which the boxes reach ahead
+  std::vector<std::uint32_t> touching;      // indices into pairs
+  std::vector<std::uint32_t> row_order;     // touching pairs by colour
+  std::vector<ColorRange> colors;
+  std::vector<ContactRow<Real>> rows;       // in colour order
+  std::vector<std::uint32_t> bouncing_rows;
+  std::vector<BodyDelta> delta;             // per dense index
+  std::vector<SubstepBody> substep;         // per dense index
+  std::vector<std::uint64_t> color_mask;    // per dense index
+  std::vector<std::uint32_t> parents;       // union-find, per slot
+  std::vector<std::uint64_t> new_keys;
+  std::vector<std::vector<std::uint64_t>> new_keys_by_chunk;
+  std::vector<Pair> new_pairs;
+  std::vector<std::uint8_t> pair_gone;
+  std::vector<std::uint32_t> bodies_to_wake;
+  std::vector<std::uint32_t> query_list;    // collider slots whose pairs must be sought
+  std::vector<std::uint32_t> touched;       // body slots that somebody acted on since the last step
+
+  // Events are gathered from the end of one step to the end of the next, then published together.
+  EventLists gathering, published;
+  std::vector<std::uint32_t> moved;  // bodies moved by the last step, ascending slots
+};
+
+// Runs task(begin, end) over [0, count), on the job system where there is one and it is worth it.
+inline void parallel_for(const WorldState& world, std::uint32_t count, std::uint32_t grain,
+                         const RangeTask& task) {
+  if (count == 0) return;
+  if (world.jobs == nullptr || count <= grain) {
+    for (std::uint32_t begin = 0; begin < count; begin += grain)
+      task(begin, begin + grain < count ? begin + grain : count);
+  } else {
+    world.jobs->parallel_for(count, grain, task);
+  }
+}
+
+// --- bodies (world/body_mass.cpp, body_motion.h) ---
+void update_mass(WorldState& world, std::uint32_t body);
+void update_collider_frames(WorldState& world, std::uint32_t body);
+void refresh_velocity(WorldState& world, std::uint32_t body);
+
+// --- sleeping (world/islands.cpp) ---
+void wake_body(WorldState& world, std::uint32_t body);           // with its island
+void wake_around(WorldState& world, std::uint32_t body);         // whatever sleeps on its bounds
+void sleep_islands(WorldState& world);
+void put_to_sleep(WorldState& world, std::uint32_t body);        // with all it touches
+
+// --- stages of the step ---
+void plan_step(WorldState& world, double dt);
+void find_pairs(WorldState& world);
+void collide_pairs(WorldState& world);
+void color_contacts(WorldState& world);
+void build_rows(WorldState& world);
+void run_substeps(WorldState& world);
+void finalize_bodies(WorldState& world);
+
+// --- pairs ---
+void forget_pairs_of_collider(WorldState& world, std::uint32_t collider);
+Pair make_pair(const WorldState& world, std::uint64_t key);
+bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t collider_b);
+void update_proxy(WorldState& world, std::uint32_t collider, bool force);
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,173 @@
+#include "record/visuals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "rrd/writer.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace replay::detail {
+namespace {
+
+constexpr std::size_t kPrimitives = 3, kRoles = 3;
+
+// A half-space is drawn as a plate of this many scene radii to each side ...
+constexpr double kGroundRadii = 2.5;
+// ... and of this share of its width.
+constexpr double kGroundThickness = 1.0 / 400;
+
+std::size_t batch_index(Primitive primitive, Role role) {
+  return static_cast<std::size_t>(primitive) * kRoles + static_cast<std::size_t>(role);
+}
+
+Eigen::Vector3f sizes_of(double a, double b, double c) {
+  return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
+}
+
+// Of a sphere around the shape's own origin [m]; 0 for a half-space.
+double radius_of(const Shape& shape) {
+  struct Visitor {
+    double operator()(const Sphere& s) const { return s.radius; }
+    double operator()(const Box& b) const { return b.half_extents.template cast<double>().norm(); }
+    double operator()(const Capsule& c) const { return double{c.half_length} + double{c.radius}; }
+    double operator()(const ConvexHull& h) const {
+      if (!h.geometry) return 0;
+      return h.geometry->interior_point().template cast<double>().norm() +
+             double{h.geometry->outer_radius()};
+    }
+    double operator()(const HalfSpace&) const { return 0; }
+  };
+  return std::visit(Visitor{}, shape);
+}
+
+}  // namespace
+
+SceneExtent extent_of(const Frame& frame) {
+  Eigen::AlignedBox3d moving, all;
+  double radius_sum = 0;
+  std::size_t count = 0;
+  for (const BodyState& body : frame.bodies) {
+    for (const ColliderId id : frame.world.colliders_of(body.id)) {
+      const Collider collider = frame.world.collider(id);
+      const double radius = radius_of(collider.shape);
+      if (radius == 0) continue;
+      const Eigen::Vector3d center =
+          body.pose.position.template cast<double>() +
+          (body.pose.orientation * collider.pose.position).template cast<double>();
+      const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius);
+      const Eigen::AlignedBox3d box(center - reach, center + reach);
+      if (!center.allFinite()) continue;
+      all.extend(box);
+      if (body.type == MotionType::Static) continue;
+      moving.extend(box);
+      radius_sum += radius;
+      ++count;
+    }
+  }
+  const Eigen::AlignedBox3d& seen = moving.isEmpty() ? all : moving;
+  if (seen.isEmpty()) return {};
+  const double body_radius = count ? radius_sum / static_cast<double>(count) : 1;
+  return {seen.center(), seen.diagonal().norm() / 2, body_radius};
+}
+
+Visuals::Visuals() {
+  shapes_.reserve(kPrimitives * kRoles);
+  for (const Primitive primitive : {Primitive::Box, Primitive::Sphere, Primitive::Capsule})
+    for (const Role role : {Role::Moving, Role::Static, Role::Sensor})
+      shapes_.emplace_back(primitive, role);
+}
+
+void Visuals::show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh) {
+  shown_as_[body] = std::move(mesh);
+}
+
+MeshBatch& Visuals::mesh_batch(rrd::Writer& writer, const void* key, const VisualMesh& mesh) {
+  const auto [found, is_new] = mesh_index_.try_emplace(key, meshes_.size());
+  if (is_new) {
+    const std::string entity = "world/meshes/" + std::to_string(meshes_.size());
+    if (mesh.color != 0) {
+      meshes_.emplace_back(writer, entity, mesh);
+    } else {
+      VisualMesh colored = mesh;
+      colored.color = kBodyColors[meshes_.size() % kBodyColors.size()];
+      meshes_.emplace_back(writer, entity, colored);
+    }
+  }
+  return meshes_[found->second];
+}
+
+void Visuals::add_collider(rrd::Writer& writer, const Collider& collider, PlacedPart part,
+                           Role role, const SceneExtent& extent) {
+  part.pose = collider.pose;
+  part.at_body_frame = collider.pose.position.isZero(Real(0)) &&
+                       collider.pose.orientation.coeffs() == Quat::Identity().coeffs();
+  const auto batch = [&](Primitive primitive) -> ShapeBatch& {
+    return shapes_[batch_index(primitive, role)];
+  };
+  if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) {
+    const double r = sphere->radius;
+    batch(Primitive::Sphere).add_part(part, sizes_of(r, r, r));
+  } else if (const auto* box = std::get_if<Box>(&collider.shape)) {
+    batch(Primitive::Box).add_part(part, box->half_extents.template cast<float>());
+  } else if (const auto* capsule = std::get_if<Capsule>(&collider.shape)) {
+    batch(Primitive::Capsule).add_part(part, sizes_of(capsule->half_length, capsule->radius, 0));
+  } else if (const auto* hull = std::get_if<ConvexHull>(&collider.shape)) {
+    if (!hull->geometry) return;
+    const void* key = hull->geometry.get();
+    if (!mesh_index_.contains(key)) kept_alive_.push_back(hull->geometry);
+    mesh_batch(writer, key, mesh_of(*hull->geometry)).add_part(part);
+  } else if (const auto* half = std::get_if<HalfSpace>(&collider.shape)) {
+    const double side = kGroundRadii * extent.radius, thickness = side * kGroundThickness;
+    const Real length = half->normal.norm();
+    const Vec3 normal = half->normal / length;
+    part.at_body_frame = false;
+    part.pose.orientation =
+        collider.pose.orientation * Quat::FromTwoVectors(Vec3::UnitY(), normal);
+    part.pose.position += collider.pose.orientation *
+                          (normal * (half->offset / length - static_cast<Real>(thickness)));
+    batch(Primitive::Box).add_part(part, sizes_of(side, thickness, side));
+  }
+}
+
+void Visuals::rebuild(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent) {
+  for (ShapeBatch& batch : shapes_) batch.clear_parts();
+  for (MeshBatch& batch : meshes_) batch.clear_parts();
+  for (std::size_t slot = 0; slot < frame.bodies.size(); ++slot) {
+    const BodyState& body = frame.bodies[slot];
+    const bool is_static = body.type == MotionType::Static;
+    PlacedPart part;
+    part.slot = slot;
+    part.color = is_static ? kStaticColor : kBodyColors[body.id.index % kBodyColors.size()];
+    if (const auto shown = shown_as_.find(body.id); shown != shown_as_.end() && shown->second) {
+      if (!mesh_index_.contains(shown->second.get())) kept_alive_.push_back(shown->second);
+      mesh_batch(writer, shown->second.get(), *shown->second).add_part(part);
+      continue;
+    }
+    for (const ColliderId id : frame.world.colliders_of(body.id)) {
+      const Collider collider = frame.world.collider(id);
+      const Role role = collider.is_sensor ? Role::Sensor : is_static ? Role::Static : Role::Moving;
+      PlacedPart colored = part;
+      if (collider.is_sensor) colored.color = kSensorColor;
+      add_collider(writer, collider, colored, role, extent);
+    }
+  }
+  for (ShapeBatch& batch : shapes_) batch.announce(writer, frame);
+  for (MeshBatch& batch : meshes_) {
+    batch.add(frame);
+    batch.send(writer);
+  }
+}
+
+void Visuals::add(const Frame& frame) {
+  for (ShapeBatch& batch : shapes_) batch.add(frame);
+  for (MeshBatch& batch : meshes_) batch.add(frame);
+}
+
+void Visuals::send(rrd::Writer& writer) {
+  for (ShapeBatch& batch : shapes_) batch.send(writer);
+  for (MeshBatch& batch : meshes_) batch.send(writer);
+}
+
+}  // namespace replay::detail
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,47 @@
+// The 3D scene: which body is drawn by which batch, kept up to date as bodies come and go.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "plumb/replay/recorder.h"
+#include "record/frame.h"
+#include "record/mesh_batch.h"
+#include "record/shape_batch.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace replay::detail {
+
+// How large the scene is, for the camera, the ground and the arrows.
+struct SceneExtent {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // [m] of what moves
+  double radius = 1;                                 // [m] around it
+  double body_radius = 1;                            // [m] mean over what moves
+};
+SceneExtent extent_of(const Frame& frame);
+
+class Visuals {
+ public:
+  Visuals();
+
+  void show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh);
+  // Looks at the whole world again and sends what changed with the frame's pose.
+  void rebuild(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent);
+  void add(const Frame& frame);
+  void send(rrd::Writer& writer);
+
+ private:
+  void add_collider(rrd::Writer& writer, const Collider& collider, PlacedPart part, Role role,
+                    const SceneExtent& extent);
+  MeshBatch& mesh_batch(rrd::Writer& writer, const void* key, const VisualMesh& mesh);
+
+  std::vector<ShapeBatch> shapes_;  // primitive x role
+  std::map<const void*, std::size_t> mesh_index_;
+  std::vector<MeshBatch> meshes_;
+  std::vector<std::shared_ptr<const void>> kept_alive_;  // so that no address is met twice
+  std::map<BodyId, std::shared_ptr<const VisualMesh>> shown_as_;
+};
+
+}  // namespace replay::detail
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,31 @@
+# Hang guard for one test case, far above what any takes; no test passes or fails by its speed.
+set(PLUMB_TEST_TIMEOUT 900)  # [s]
+
+# One Google Test program from tests/<FOLDER>, and one ctest entry per test case in it.
+#   plumb_test_program(<target> FOLDER f [READS_TREE] [PREFIX p] [LIBRARIES ...] [INCLUDES ...])
+# READS_TREE: the tests read files of this source tree, found below PLUMB_SOURCE_DIR. The others know
+# no absolute path, so that the compiler cache serves any checkout.
+function(plumb_test_program target)
+  cmake_parse_arguments(arg "READS_TREE" "FOLDER;PREFIX" "LIBRARIES;INCLUDES" ${ARGN})
+  plumb_glob(sources ${arg_FOLDER}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${target} ${sources})
+  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" ${arg_INCLUDES})
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main
+                                          plumb_warnings)
+  if(arg_READS_TREE)
+    target_compile_definitions(${target} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  endif()
+  target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <cmath> <string> <vector>)
+  if(arg_LIBRARIES)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry>)
+  endif()
+  # What ccache needs to see through a precompiled header.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+    $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
+  gtest_discover_tests(${target} TEST_PREFIX "${arg_PREFIX}" DISCOVERY_MODE PRE_TEST
+                       DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${PLUMB_TEST_TIMEOUT})
+endfunction()

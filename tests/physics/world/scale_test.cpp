@@ -1,0 +1,120 @@
+// Proves that no length is built in: millimetres and tens of kilometres behave alike, and a stack
+// stands as far from the origin as its positions can resolve.
+#include <gtest/gtest.h>
+
+#include "support/measure.h"
+#include "support/scenes.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace {
+
+using namespace scenes;
+using Eigen::Vector3d;
+
+constexpr double kDt = 1.0 / 60;  // [s]
+
+// Reference case H8: the same stack in every size, each judged in its own size. Gravity is that of
+// the earth, so that a 1 mm cube falls its own height in 14 ms (less than a step) and a 10 km cube in
+// 45 s.
+TEST(Scale, H8_AStackOfAnySizeStands) {
+  for (double edge : {1e-3, 5e-2, 1.0, 1e2, 1e4}) {
+    PhysicsWorld world(no_sleep());
+    const Built stack = build_stack(world, {.count = 5, .half = edge / 2});
+    run(world, 10, kDt, [&] { ASSERT_TRUE(all_finite(world)) << "edge " << edge; });
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Vector3d p = position(world, stack.bodies[i]) / edge;
+      EXPECT_LE(std::hypot(p.x(), p.z()), 1e-2) << "edge " << edge << " box " << i;
+      EXPECT_NEAR(p.y(), 0.5 + static_cast<double>(i), 0.05) << "edge " << edge << " box " << i;
+    }
+    EXPECT_LE(deepest(world) / edge, 0.01) << "edge " << edge;
+  }
+}
+
+// With gravity scaled by the size, the motion itself is the same: x/edge depends on t only.
+TEST(Scale, MotionIsTheSameWhenLengthsAndGravityScaleTogether) {
+  const auto heights = [](double scale) {
+    WorldSettings settings = no_sleep();
+    settings.gravity = vec(0, -kGravity * scale, 0);
+    PhysicsWorld world(settings);
+    const Built stack = build_stack(world, {.count = 3, .half = 0.5 * scale, .gap = 0.1 * scale});
+    std::vector<double> y;
+    run(world, 3, kDt, [&] {
+      for (BodyId b : stack.bodies) y.push_back(position(world, b).y() / scale);
+    });
+    return y;
+  };
+  const std::vector<double> unit = heights(1);
+  for (double scale : {1.0 / 1024, 1024.0}) {  // powers of two: nothing but exponents may change
+    const std::vector<double> scaled = heights(scale);
+    ASSERT_EQ(scaled.size(), unit.size());
+    double worst = 0;
+    for (std::size_t i = 0; i < unit.size(); ++i) worst = std::max(worst, std::abs(scaled[i] - unit[i]));
+    EXPECT_LE(worst, bar(1e-9, 1e-4)) << "scale " << scale;
+  }
+}
+
+TEST(Scale, H8_AMillimetreBoxRestsOnATenKilometreBox) {
+  PhysicsWorld world(no_sleep());
+  add(world, body_at(at(0, -5000, 0), MotionType::Static), with(cube(5000)));
+  const BodyId tiny = add(world, body_at(at(0, 0.0006, 0)), with(cube(0.0005)));
+  run(world, 5);
+  EXPECT_NEAR(position(world, tiny).y(), 0.0005, 0.0005 * 0.1);
+  EXPECT_LE(std::hypot(position(world, tiny).x(), position(world, tiny).z()), 1e-4);
+}
+
+TEST(Scale, APyramidOfFiveCentimetreBoxesStands) {
+  PhysicsWorld world(no_sleep());
+  const Built pyramid = build_pyramid(world, {.base = 5, .half = 0.025});
+  std::vector<Vector3d> start;
+  for (BodyId b : pyramid.bodies) start.push_back(position(world, b));
+  run(world, 10);
+  for (std::size_t i = 0; i < start.size(); ++i)
+    EXPECT_LE((position(world, pyramid.bodies[i]) - start[i]).norm(), 0.1 * 0.05) << i;
+}
+
+// Reference case H9. A box of 1 m needs positions to a fraction of its slop of 2 mm: in single
+// precision that ends at about 1e4 m (1 mm), in double it holds at any distance asked.
+TEST(Scale, H9_AStackStandsFarFromTheOrigin) {
+  constexpr bool double_positions = std::is_same_v<PosReal, double>;
+  std::vector<double> distances = {0, 1e2, 1e3};
+  if constexpr (double_positions) distances.insert(distances.end(), {1e4, 1e5, 1e6});
+  for (double distance : distances) {
+    PhysicsWorld world(no_sleep());
+    const Vector3d foot(distance, 0, -distance);
+    const Built stack = build_stack(world, {.count = 5, .foot = foot});
+    run(world, 10);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Vector3d p = position(world, stack.bodies[i]) - foot;
+      EXPECT_LE(std::hypot(p.x(), p.z()), 1e-2) << distance;
+      EXPECT_NEAR(p.y(), 0.5 + static_cast<double>(i), 0.03) << distance;
+    }
+    EXPECT_LE(max_speed(world), bar(1e-4, 1e-2)) << distance;
+  }
+}
+
+// With double positions nothing at all depends on where the origin is, except for rounding in the
+// position itself.
+TEST(Scale, H9_DoublePositionsGiveTheSameMotionEverywhere) {
+  if constexpr (std::is_same_v<PosReal, double>) {
+    const auto path = [](double distance) {
+      PhysicsWorld world(no_sleep());
+      const Vector3d foot(distance, 0, 0);
+      const Built stack = build_stack(world, {.count = 3, .gap = 0.1, .foot = foot});
+      const BodyId flying = add(world, moving(at(distance - 5, 1, 0), vec(9, 3, 0), vec(1, 2, 3)),
+                                with(box(0.2, 0.3, 0.4)));
+      run(world, 0.5);  // before anything chaotic
+      return std::pair(Vector3d(position(world, flying) - foot),
+                       Vector3d(position(world, stack.bodies[2]) - foot));
+    };
+    const auto [flying0, top0] = path(0);
+    for (double distance : {1e3, 1e6}) {
+      const auto [flying, top] = path(distance);
+      // Positions round to eps * distance; velocities are off by what the overlap then is.
+      EXPECT_LE((flying - flying0).norm(), 1e-8 + 1e3 * kPosEps * distance) << distance;
+      EXPECT_LE((top - top0).norm(), bar(1e-7, 1e-5)) << distance;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumb::inline PLUMB_ABI

@@ -1,0 +1,106 @@
+// Proves where standing ends: a box on a slope tips at tan = b/h, two leaning cards hold by
+// mu = tan/2, an overhanging tower falls at the harmonic sum, an edge-on force tips at its lever.
+#include <gtest/gtest.h>
+
+#include "support/measure.h"
+#include "support/scenes.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace {
+
+using namespace scenes;
+using Eigen::Vector3d;
+
+constexpr double kDt = 1.0 / 60;  // [s]
+
+// Reference case C4: threshold to 0.1 degrees.
+TEST(Tipping, C4_ABoxOnASlopeTipsWhenItsWeightPassesItsEdge) {
+  struct Case {
+    double b, h;  // [m] half extents along and across the slope
+  };
+  for (const Case& c : {Case{0.25, 0.5}, Case{0.5, 0.5}, Case{0.1, 0.4}}) {
+    const double threshold = std::atan(c.b / c.h);
+    const auto tilt_after = [&](double angle) {
+      PhysicsWorld world(no_sleep());
+      Slope slope{.angle = angle, .friction = 3, .shape = box(c.b, c.h, 0.5), .height = c.h};
+      const OnSlope built = build_slope(world, slope);
+      const Eigen::Quaterniond q0 = orientation(world, built.body);
+      // From 0.1 degrees a box of this size needs about 1.5 s to fall.
+      run(world, 5);
+      return angle_between(orientation(world, built.body), q0);
+    };
+    const double tenth = 0.1 * kPi / 180;
+    EXPECT_LT(tilt_after(threshold - tenth), 0.01) << "b/h " << c.b / c.h;
+    EXPECT_GT(tilt_after(threshold + tenth), 0.5) << "b/h " << c.b / c.h;
+  }
+}
+
+// Reference case C12: two cards leaning at 25 degrees stand iff mu >= tan(25)/2 = 0.23315. Cards
+// have a thickness: here 1/200 of their height, which moves the threshold by about as much.
+TEST(Tipping, C12_TwoLeaningCardsStandByFriction) {
+  const double angle = 25 * kPi / 180, length = 1, half_thickness = 0.0025;
+  const auto sink = [&](double mu) {
+    PhysicsWorld world(no_sleep());
+    const Material foot = material(mu);
+    add_floor(world, foot);
+    std::vector<BodyId> cards;
+    for (double side : {-1.0, 1.0}) {
+      // Lowest corner on the floor, highest inner corner on the plane between the cards.
+      const double x = side * (length / 2 * std::sin(angle) + half_thickness * std::cos(angle));
+      const double y = length / 2 * std::cos(angle) + half_thickness * std::sin(angle);
+      RigidBody card = body_at(at({x, y, 0}, turn(side * angle, Vector3d::UnitZ())));
+      card.locks = MotionLocks::planar();
+      cards.push_back(add(world, card, with(box(half_thickness, length / 2, 0.3), foot)));
+    }
+    const double y0 = position(world, cards[0]).y();
+    run(world, 5);
+    return y0 - position(world, cards[0]).y();
+  };
+  const double threshold = std::tan(angle) / 2;
+  EXPECT_LT(sink(threshold * 1.02), 0.01);
+  EXPECT_GT(sink(threshold * 0.98), 0.1);
+}
+
+// Reference case C13: four blocks of length 1 overhang by at most (1 + 1/2 + 1/3 + 1/4)/2.
+TEST(Tipping, C13_HarmonicOverhang) {
+  const auto top_after = [](double part) {
+    PhysicsWorld world(no_sleep());
+    const Material rough = material(0.9);
+    // The table ends at x = 0; block k counted from the top reaches 1/(2k) beyond the next.
+    add(world, body_at(at(-2, -0.5, 0), MotionType::Static), with(box(2, 0.5, 2), rough));
+    std::vector<BodyId> blocks;
+    double reach = 0;
+    for (int k = 4; k >= 1; --k) {
+      reach += part / (2 * k);
+      const double y = 0.1 + 0.2 * (4 - k);
+      blocks.push_back(add(world, body_at(at(reach - 0.5, y, 0)), with(box(0.5, 0.1, 0.25), rough)));
+    }
+    EXPECT_NEAR(reach, part * 1.0416667, 1e-6);
+    run(world, 8);
+    return position(world, blocks.back()).y();
+  };
+  EXPECT_NEAR(top_after(0.98), 0.7, 0.01);
+  EXPECT_LT(top_after(1.02), 0);
+}
+
+// A horizontal pull at height y tips a block iff F y > m g b.
+TEST(Tipping, APullTipsAtItsLever) {
+  const double b = 0.5, h = 0.5, pull_at = 0.9;
+  const auto tilt_after = [&](double part) {
+    PhysicsWorld world(no_sleep());
+    add_floor(world, material(2));
+    const BodyId block = add(world, body_at(at(0, h, 0)), with(box(b, h, 0.5), material(2)));
+    const double m = world.mass_properties(block).mass;
+    const double force = part * m * kGravity * b / pull_at;
+    for (int i = 0; i < 90; ++i) {
+      must(world.apply_force_at_body_point(block, vec(force, 0, 0), vec(0, pull_at - h, 0)));
+      world.step(kDt);
+    }
+    return angle_between(orientation(world, block), Eigen::Quaterniond::Identity());
+  };
+  EXPECT_LT(tilt_after(0.99), 0.01);
+  EXPECT_GT(tilt_after(1.01), 0.05);
+}
+
+}  // namespace
+}  // namespace plumb::inline PLUMB_ABI
