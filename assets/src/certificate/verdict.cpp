@@ -23,15 +23,31 @@ std::string short_number(double value) {
   return text;
 }
 
-// The smallest weld that leaves no rim, [m]; 0 if none of the trials does.
+// The smallest weld that leaves no rim, [m]; 0 if none of the trials does. Only places on the rim
+// are welded: a crack has both its sides there.
 double closing_weld(const Surface& surface, const MeshCertificate& certificate) {
+  constexpr std::uint32_t kInner = ~0u;
+  std::vector<std::uint32_t> rim_number(surface.places.size(), kInner);
+  std::vector<Eigen::Vector3d> rim;
+  for_each_edge(surface.uses, [&](std::size_t begin, std::size_t end) {
+    if ((end - begin) % 2 == 0) return;
+    for (const std::uint32_t place : {surface.uses[begin].low, surface.uses[begin].high}) {
+      if (rim_number[place] != kInner) continue;
+      rim_number[place] = static_cast<std::uint32_t>(rim.size());
+      rim.push_back(surface.places[place]);
+    }
+  });
   for (const double share : kWeldTrials) {
     const double tolerance = share * certificate.bounds.diagonal();
-    const Places places = gather_places(surface.places, tolerance);
+    const Places welded = gather_places(rim, tolerance);
+    const auto number_of = [&](std::uint32_t place) {
+      const std::uint32_t inner = static_cast<std::uint32_t>(rim.size()) + place;
+      return rim_number[place] == kInner ? inner : welded.place_of[rim_number[place]];
+    };
     std::vector<Triangle> faces;
     for (const Triangle& face : surface.faces) {
-      const Triangle welded{places.place_of[face[0]], places.place_of[face[1]], places.place_of[face[2]]};
-      if (welded[0] != welded[1] && welded[1] != welded[2] && welded[2] != welded[0]) faces.push_back(welded);
+      const Triangle t{number_of(face[0]), number_of(face[1]), number_of(face[2])};
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) faces.push_back(t);
     }
     bool open = faces.empty();
     const std::vector<EdgeUse> uses = sorted_edge_uses(faces);

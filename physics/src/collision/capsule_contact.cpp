@@ -52,13 +52,16 @@ void add_capsule_contacts(const FacePolygon& face, const Segment& axis, Num radi
     const Num span = ends[1].at - ends[0].at;
     const bool wide = span * span * length_sq > kParallelCapsules * radius * kParallelCapsules * radius;
     if (wide && std::min(core[0], core[1]) <= proximity.distance + slack) {
+      // Along the normal a tilted cylinder is thicker than its radius; the cap at its lower end is not.
+      const Num thick = radius / std::sqrt(Num(1) - tilt * tilt / length_sq);
       for (int i = 0; i < 2; ++i) {
-        const Num separation = core[i] - radius;
-        if (!(separation <= margin)) continue;
         // At an end of the capsule its name is that end's, else that of the side between them.
         const bool at_end = ends[i].at == Num(i);
         const FeatureName own = at_end ? vertex_name(i) : edge_name(0);
-        out.add(point_at(axis, ends[i].at) - (radius + Num(0.5) * separation) * n, separation,
+        const Num down = at_end && (i == 0) == (tilt > Num(0)) ? radius : thick;
+        const Num separation = std::max(core[i] - down, proximity.distance - radius);
+        if (!(separation <= margin)) continue;
+        out.add(point_at(axis, ends[i].at) - (down + Num(0.5) * separation) * n, separation,
                 pair_name(ends[i].name, own));
       }
       return;

@@ -58,8 +58,9 @@ void update_rest_time(WorldState& world, std::uint32_t dense) {
   // What nothing supports is not at rest, however slow it is at the moment: it floats or turns back.
   const bool supported = world.substep[dense].constrained;
   const Real limit = rest_speed(world, info, world.bodies.mass[dense].gravity_scale);
-  const bool rests = info.can_sleep && (supported ? speed < limit : speed == Real(0) &&
-                     length_squared(world.substep[dense].acceleration) == Real(0));
+  const bool still = length_squared(velocity.v) == Real(0) && length_squared(velocity.w) == Real(0) &&
+                     length_squared(world.substep[dense].acceleration) == Real(0);
+  const bool rests = info.can_sleep && (supported ? speed < limit : still);
   info.rest_time = rests ? info.rest_time + world.dt : Real(0);
 }
 

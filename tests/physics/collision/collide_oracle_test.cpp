@@ -55,11 +55,18 @@ Scene random_scene(Random& random, ShapeType type_a, ShapeType type_b, double si
   V away = random.direction();
   if (kind == 0) away = V::Unit(random.below(3));
   const double distance = random.below(20) == 0 ? 0.0 : sum * random.uniform(0, 1.1);
+  s.margin = static_cast<Real>(random.uniform(0, 0.3) * std::min(reach(s.a), reach(s.b)));
   // Somewhere within reach of the common reference point.
   const V pa = sum * random.direction(), pb = pa + distance * away;
   s.xa.p = {static_cast<Real>(pa.x()), static_cast<Real>(pa.y()), static_cast<Real>(pa.z())};
   s.xb.p = {static_cast<Real>(pb.x()), static_cast<Real>(pb.y()), static_cast<Real>(pb.z())};
-  s.margin = static_cast<Real>(random.uniform(0, 0.3) * std::min(reach(s.a), reach(s.b)));
+  if (random.below(2) == 0) {
+    // Half of the poses touch, or nearly: overlap by little or lie apart by less than the margin along
+    // the direction of approach.
+    const double room = room_along(oracle::solid_of(s.a, s.xa), oracle::solid_of(s.b, s.xb), away);
+    const V moved = pb + (random.uniform(-0.3, 1) * static_cast<double>(s.margin) - room) * away;
+    s.xb.p = {static_cast<Real>(moved.x()), static_cast<Real>(moved.y()), static_cast<Real>(moved.z())};
+  }
   return s;
 }
 
@@ -72,7 +79,6 @@ Bounds bounds_for(const Scene& s, bool apart) {
   const double thickness = std::min(half_thickness(s.a), half_thickness(s.b));
   // Rounding of the result: positions are as far out as `sum`, hull planes as large as their hull.
   const double rounding = 8 * kEpsilon * (reach(s.a) + reach(s.b));
-  const bool round = s.a.radius > 0 || s.b.radius > 0;
   const bool polyhedron = s.a.radius == 0 || s.b.radius == 0;
   Bounds bounds{rounding, rounding};
   if (polyhedron && !(s.a.type == ShapeType::Sphere || s.b.type == ShapeType::Sphere)) {
@@ -81,8 +87,8 @@ Bounds bounds_for(const Scene& s, bool apart) {
     bounds.depth += (apart ? kAttained + kDeepestTie : preferred) * thickness;
     bounds.surface += (2 * kClipBand + (apart ? 0 : preferred)) * thickness;
   }
-  // A tilted capsule bulges towards the other by its radius times half the tilt squared.
-  if (round && (s.a.type == ShapeType::Capsule || s.b.type == ShapeType::Capsule)) {
+  // A capsule on another at a small angle bulges towards it by half the tilt squared.
+  if (s.a.type == ShapeType::Capsule && s.b.type == ShapeType::Capsule) {
     bounds.surface += 0.6 * kParallelTilt * kParallelTilt * static_cast<double>(s.a.radius + s.b.radius);
   }
   return bounds;
