@@ -410,8 +410,7 @@ def gltf_parts(mesh, name):
     low = [min(v[k] for v in mesh.vertices) for k in range(3)]
     high = [max(v[k] for v in mesh.vertices) for k in range(3)]
     document = {
-        "asset": {"version": "2.0", "generator": "make_models.py"}, "scene": 0, "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "name": name}],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": name}],
         "meshes": [{"name": name, "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 4}]}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(mesh.vertices), "type": "VEC3", "min": low, "max": high},
                       {"bufferView": 1, "componentType": 5123, "count": 3 * len(mesh.faces), "type": "SCALAR"}],
@@ -437,8 +436,7 @@ def write_glb(mesh, name):
 
 
 def write_dae(mesh, name):
-    """Centimetres and z up, with the part turned and shifted by its node: all to be undone."""
-    # The node moves by +5 cm along x; the mesh is stored moved back by as much.
+    """Centimetres and z up; stored 5 cm off along x, which the node's transform undoes."""
     stored = [(100 * x - 5, -100 * z, 100 * y) for x, y, z in mesh.vertices]
     floats = " ".join("%.9g" % c for v in stored for c in v)
     indices = " ".join(str(i) for f in mesh.faces for i in f)
@@ -490,7 +488,7 @@ def main():
         data = WRITERS[extension](mesh, name)
         with open(os.path.join(folder, name + "." + extension), "wb") as file:
             file.write(data)
-        manifest.append({"name": name, "file": name + "." + extension, "about": maker.__doc__ or "",
+        manifest.append({"name": name, "file": name + "." + extension,
                          "triangles": len(mesh.faces), "components": components, "cavities": cavities, "genus": genus,
                          "volume": volume, "center": center})
     with open(os.path.join(folder, "models.json"), "w", encoding="utf-8") as file:

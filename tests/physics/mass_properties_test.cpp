@@ -434,10 +434,9 @@ TEST(MassOfShape, OfAHullIsExactAtAndAwayFromItsOrigin) {
 TEST(MassOfShape, OfATetrahedronHullMatchesTonon) {
   const std::vector<Vec3> v{Vec3(Real(8.33220), Real(-11.86875), Real(0.93355)), Vec3(Real(0.75523), 5, Real(16.37072)),
                             Vec3(Real(52.61236), 5, Real(-5.38580)), Vec3(2, 5, 3)};
-  // Face normals point away from the fourth vertex whichever way the corners run: try both.
+  // Outward for one sense of the four corners; turned over for the other.
   std::vector<std::uint32_t> faces{0, 1, 2, 0, 3, 1, 1, 3, 2, 0, 2, 3};
-  const double side = (v[1] - v[0]).cross(v[2] - v[0]).dot(v[3] - v[0]) > 0 ? 1 : -1;
-  if (side > 0) {
+  if ((v[1] - v[0]).cross(v[2] - v[0]).dot(v[3] - v[0]) > 0) {
     for (std::size_t f = 0; f < faces.size(); f += 3) std::swap(faces[f + 1], faces[f + 2]);
   }
   const HullGeometry::Result made = HullGeometry::create(v, std::vector<std::uint32_t>(4, 3), faces);

@@ -42,6 +42,20 @@ int dimension_of(const std::vector<Vector3d>& points) {
   return off_plane(farthest(off_plane)) <= kFlatExtent ? 2 : 3;
 }
 
+// Points times faces up to which every pair is measured; beyond, Qhull's own bound is reported.
+constexpr std::size_t kMaxMeasured = 20'000'000;
+
+double measured_outside(const HullMesh& hull, const std::vector<Vector3d>& points) {
+  double outside = 0;
+  for (const auto& face : hull.faces) {
+    const Vector3d normal = polygon_area_vector(hull.vertices, face).normalized();
+    Vector3d on_plane = Vector3d::Zero();
+    for (const std::uint32_t v : face) on_plane += hull.vertices[v] / static_cast<double>(face.size());
+    for (const Vector3d& p : points) outside = std::max(outside, normal.dot(p - on_plane));
+  }
+  return outside;
+}
+
 }  // namespace
 
 Vector3d polygon_area_vector(const std::vector<Vector3d>& vertices, const std::vector<std::uint32_t>& face) {
@@ -107,22 +121,18 @@ Result<HullMesh> convex_hull(std::span<const Vector3d> points, const HullOptions
     return Error{std::string("convex hull: the points ") + detail::kDimensionText[dimension] +
                  "; a hull needs a body"};
   }
-  const Result<detail::Polygons> polygons = detail::run_qhull(unit, options.coplanar_tolerance);
-  if (!polygons) return Error{polygons.error()};
+  const Result<detail::QhullRun> run = detail::run_qhull(unit, options.coplanar_tolerance);
+  if (!run) return Error{run.error()};
 
-  HullMesh full = detail::compact_hull(unit, *polygons);
+  HullMesh full = detail::compact_hull(unit, run->polygons);
   full.full_vertex_count = full.vertices.size();
   if (options.max_vertices != 0 && full.vertices.size() > options.max_vertices) {
     Result<HullMesh> simple = detail::simplified(full, options.max_vertices, options.coplanar_tolerance);
     if (!simple) return Error{simple.error()};
     full = std::move(simple).value();
   } else {
-    for (const auto& face : full.faces) {
-      const Vector3d normal = detail::polygon_area_vector(full.vertices, face).normalized();
-      Vector3d on_plane = Vector3d::Zero();
-      for (const std::uint32_t v : face) on_plane += full.vertices[v] / static_cast<double>(face.size());
-      for (const Vector3d& p : unit) full.max_outside = std::max(full.max_outside, normal.dot(p - on_plane));
-    }
+    full.max_outside = unit.size() * full.faces.size() <= detail::kMaxMeasured ? detail::measured_outside(full, unit)
+                                                                               : run->outer;
   }
   for (Vector3d& p : full.vertices) p = middle + size * p;
   full.max_outside *= size;

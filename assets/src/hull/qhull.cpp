@@ -14,7 +14,7 @@ namespace {
 // The faces of a finished run as plain numbers. Qhull leaves by longjmp when something goes wrong;
 // nothing with a destructor may be alive across it, so that `flat` belongs to the caller.
 // Each face is written as its size and its points. False if Qhull gave up.
-bool read_faces(qhT* qh, std::vector<int>& flat) {
+bool read_faces(qhT* qh, std::vector<int>& flat, double& outer) {
   // Room beforehand: an allocation that is skipped over by a jump would leak.
   std::size_t room = 0;
   {
@@ -35,13 +35,14 @@ bool read_faces(qhT* qh, std::vector<int>& flat) {
     FOREACHvertex_(corners) flat.push_back(qh_pointid(qh, vertex->point));
     qh_settempfree(qh, &corners);
   }
+  outer = qh_maxouter(qh);
   qh->NOerrexit = True;
   return true;
 }
 
 }  // namespace
 
-Result<Polygons> run_qhull(const std::vector<Eigen::Vector3d>& points, double coplanar_tolerance) {
+Result<QhullRun> run_qhull(const std::vector<Eigen::Vector3d>& points, double coplanar_tolerance) {
   std::vector<coordT> coordinates;
   coordinates.reserve(3 * points.size());
   for (const Eigen::Vector3d& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
@@ -58,7 +59,8 @@ Result<Polygons> run_qhull(const std::vector<Eigen::Vector3d>& points, double co
   const int exit_code = qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates.data(), False, command,
                                      nullptr, messages);
   std::vector<int> flat;
-  const bool complete = exit_code == 0 && read_faces(qh, flat);
+  QhullRun run;
+  const bool complete = exit_code == 0 && read_faces(qh, flat, run.outer);
   qh_freeqhull(qh, !qh_ALL);
   int left = 0, total = 0;
   qh_memfreeshort(qh, &left, &total);
@@ -76,16 +78,15 @@ Result<Polygons> run_qhull(const std::vector<Eigen::Vector3d>& points, double co
                  "; the points may be too flat for a body"};
   }
 
-  Polygons polygons;
   for (std::size_t i = 0; i < flat.size();) {
     const auto size = static_cast<std::size_t>(flat[i++]);
     std::vector<std::uint32_t> polygon;
     // Qhull lists them clockwise.
     for (std::size_t k = size; k-- > 0;) polygon.push_back(static_cast<std::uint32_t>(flat[i + k]));
     i += size;
-    polygons.push_back(std::move(polygon));
+    run.polygons.push_back(std::move(polygon));
   }
-  return polygons;
+  return run;
 }
 
 }  // namespace plumb::inline PLUMB_ABI::assets::detail

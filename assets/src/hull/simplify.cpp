@@ -85,9 +85,9 @@ Result<HullMesh> simplified(const HullMesh& full, std::size_t max_vertices, doub
   for (;;) {
     std::vector<Vector3d> points;
     for (const std::size_t i : chosen) points.push_back(full.vertices[i]);
-    const Result<Polygons> polygons = run_qhull(points, coplanar_tolerance);
-    if (!polygons) return Error{polygons.error()};
-    hull = compact_hull(points, *polygons);
+    const Result<QhullRun> run = run_qhull(points, coplanar_tolerance);
+    if (!run) return Error{run.error()};
+    hull = compact_hull(points, run->polygons);
     if (chosen.size() >= max_vertices) break;
     const std::vector<Plane> planes = planes_of(hull);
     std::size_t best = 0;

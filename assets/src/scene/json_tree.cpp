@@ -102,9 +102,10 @@ class TreeBuilder {
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& e) {
     // Of "[id] parse error at line L, column C: text" only the text: the line is said already.
     std::string what = e.what();
-    const std::size_t column = what.find("column ");
-    const std::size_t text = what.find(": ", column == std::string::npos ? 0 : column);
-    if (text != std::string::npos) what = what.substr(text + 2);
+    for (const char* before_text : {"] ", ": "}) {
+      const std::size_t at = what.find(before_text);
+      if (at != std::string::npos) what = what.substr(at + 2);
+    }
     problems_.add(lines_.line_at(position > 0 ? position - 1 : 0), "this is not JSON: " + what,
                   "look here and just before for a comma, quote or bracket too few or too many "
                   "(JSON has no comments)");

@@ -31,6 +31,15 @@ bool clip_axis(const FacePolygon& face, const Segment& axis, NumVec normal, Num 
   return ends[0].at < ends[1].at;
 }
 
+// How far the surface lies from a point of the axis along the normal. A tilted cylinder is thicker than
+// its radius; near the lower end, `along` [m] away, its place is taken by the cap.
+Num depth_below_axis(Num radius, Num sine, Num along) {
+  const Num cosine = std::sqrt(Num(1) - sine * sine);
+  if (along * cosine >= radius * sine) return radius / cosine;
+  const Num aside = along * cosine;
+  return along * sine + std::sqrt(radius * radius - aside * aside);
+}
+
 }  // namespace
 
 void add_capsule_contacts(const FacePolygon& face, const Segment& axis, Num radius,
@@ -42,23 +51,23 @@ void add_capsule_contacts(const FacePolygon& face, const Segment& axis, Num radi
   out.normal = n;
   ClippedEnd ends[2];
   if (steepness >= kSteepFace && tilt * tilt <= kParallelTilt * kParallelTilt * length_sq &&
-      clip_axis(face, axis, n, kClipBand * thickness, ends)) {
+      clip_axis(face, axis, n, kAttained * thickness, ends)) {
     Num core[2];
     for (int i = 0; i < 2; ++i) {
       const Num height = (dot(face.normal, point_at(axis, ends[i].at)) - face.offset) / steepness;
-      core[i] = std::max(height, proximity.distance);  // the clip band may reach past the closest point
+      core[i] = std::max(height, proximity.distance);  // rounding may see it closer
     }
     const Num slack = (proximity.distance > Num(0) ? kAttained : kFacePreference) * thickness;
     const Num span = ends[1].at - ends[0].at;
     const bool wide = span * span * length_sq > kParallelCapsules * radius * kParallelCapsules * radius;
     if (wide && std::min(core[0], core[1]) <= proximity.distance + slack) {
-      // Along the normal a tilted cylinder is thicker than its radius; the cap at its lower end is not.
-      const Num thick = radius / std::sqrt(Num(1) - tilt * tilt / length_sq);
+      const Num size = std::sqrt(length_sq), sine = std::abs(tilt) / size;
+      const Num lower = tilt > Num(0) ? Num(0) : Num(1);
       for (int i = 0; i < 2; ++i) {
         // At an end of the capsule its name is that end's, else that of the side between them.
         const bool at_end = ends[i].at == Num(i);
         const FeatureName own = at_end ? vertex_name(i) : edge_name(0);
-        const Num down = at_end && (i == 0) == (tilt > Num(0)) ? radius : thick;
+        const Num down = depth_below_axis(radius, sine, std::abs(ends[i].at - lower) * size);
         const Num separation = std::max(core[i] - down, proximity.distance - radius);
         if (!(separation <= margin)) continue;
         out.add(point_at(axis, ends[i].at) - (down + Num(0.5) * separation) * n, separation,

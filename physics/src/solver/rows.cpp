@@ -16,6 +16,18 @@ Softness make_softness(Real frequency, Real damping_ratio, Real h) {
   return {w / a1, a2 * a3, a3};
 }
 
+unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row) {
+  const auto weight = [&](std::uint32_t i) {
+    return world.bodies.mass[i].mass * length(world.substep[i].acceleration);
+  };
+  const Real negligible =
+      tolerance::kLoadedFraction * world.h * std::max(weight(row.body_a), weight(row.body_b));
+  unsigned loaded = 0;
+  for (int i = 0; i < row.count; ++i)
+    if (row.points[i].impulse > negligible) loaded |= 1u << i;
+  return loaded;
+}
+
 namespace {
 
 struct RowContext {
@@ -142,6 +154,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
   // Bodies that do not move in this step are all the world itself, dense 0.
   if (row.body_a >= bodies.awake_end) row.body_a = 0;
   if (row.body_b >= bodies.awake_end) row.body_b = 0;
+  row.loaded = loaded_points(world, row);
 }
 
 }  // namespace

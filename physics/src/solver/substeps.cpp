@@ -133,21 +133,13 @@ void finish_substep(WorldState& world, std::uint32_t i) {
   }
 }
 
-// Which points carry load; a change marks both bodies, whose velocities then jump rather than ramp.
+// A change in which points carry load marks both bodies, whose velocities then jump rather than ramp.
 void note_loaded_points(WorldState& world, ContactRow<Real>& row) {
-  const auto weight = [&](std::uint32_t i) {
-    return world.bodies.mass[i].mass * length(world.substep[i].acceleration);
-  };
-  const Real negligible =
-      tolerance::kLoadedFraction * world.h * std::max(weight(row.body_a), weight(row.body_b));
-  unsigned loaded = 0;
-  for (int i = 0; i < row.count; ++i)
-    if (row.points[i].impulse > negligible) loaded |= 1u << i;
-  if (loaded != row.loaded) {
-    row.loaded = loaded;
-    if (world.substep[row.body_a].constrained) world.substep[row.body_a].contacts_changed = true;
-    if (world.substep[row.body_b].constrained) world.substep[row.body_b].contacts_changed = true;
-  }
+  const unsigned loaded = loaded_points(world, row);
+  if (loaded == row.loaded) return;
+  row.loaded = loaded;
+  if (world.substep[row.body_a].constrained) world.substep[row.body_a].contacts_changed = true;
+  if (world.substep[row.body_b].constrained) world.substep[row.body_b].contacts_changed = true;
 }
 
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {

@@ -128,6 +128,8 @@ void find_pairs(WorldState& world);
 void collide_pairs(WorldState& world);
 void color_contacts(WorldState& world);
 void build_rows(WorldState& world);
+// Bit i: point i carries more than a negligible normal impulse.
+unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row);
 void run_substeps(WorldState& world);
 void finalize_bodies(WorldState& world);
 

@@ -106,11 +106,16 @@ impl Layout {
             .send_properties(false)
             .memory()
             .map_err(|e| failed(&e))?;
-        blueprint.send(&stream, BlueprintActivation::default()).map_err(|e| failed(&e))?;
+        blueprint
+            .send(&stream, BlueprintActivation::default())
+            .map_err(|e| failed(&e))?;
         stream.flush_blocking().map_err(|e| failed(&e))?;
 
-        let sent: Vec<LogMsg> =
-            storage.take().into_iter().filter(|m| m.store_id().is_blueprint()).collect();
+        let sent: Vec<LogMsg> = storage
+            .take()
+            .into_iter()
+            .filter(|m| m.store_id().is_blueprint())
+            .collect();
         let is_command = |m: &LogMsg| matches!(m, LogMsg::BlueprintActivationCommand(_));
         let (commands, mut messages): (Vec<_>, Vec<_>) = sent.into_iter().partition(is_command);
         let store = match commands.first() {
@@ -121,7 +126,10 @@ impl Layout {
             _ => return Err(failed(&"the SDK made no blueprint")),
         };
         if let Some(path) = space_path {
-            messages.extend(self.space_properties(&store, &path).map_err(|e| failed(&e))?);
+            messages.extend(
+                self.space_properties(&store, &path)
+                    .map_err(|e| failed(&e))?,
+            );
         }
         messages.extend(commands);
         Ok(messages)
@@ -152,7 +160,11 @@ impl Layout {
             }
         }
         let column = others.into_iter().map(|(_, mut place)| {
-            if place.len() == 1 { place.remove(0) } else { Tabs::new(place).into() }
+            if place.len() == 1 {
+                place.remove(0)
+            } else {
+                Tabs::new(place).into()
+            }
         });
         let root = Horizontal::new([Vertical::new(spaces).into(), Vertical::new(column).into()])
             .with_column_shares([WIDTH_OF_3D, WIDTH_OF_OTHERS]);
@@ -177,8 +189,10 @@ impl Layout {
     ) -> re_chunk::ChunkResult<Vec<LogMsg>> {
         let mut messages = Vec::new();
         let mut add = |name: &str, archetype: &dyn AsComponents| -> re_chunk::ChunkResult<()> {
-            let time = TimePoint::default()
-                .with(Timeline::new_sequence("blueprint"), TimeInt::new_temporal(0));
+            let time = TimePoint::default().with(
+                Timeline::new_sequence("blueprint"),
+                TimeInt::new_temporal(0),
+            );
             let path = format!("{view_path}/{name}");
             let chunk = Chunk::builder(path.as_str())
                 .with_archetype(RowId::new(), time, archetype)

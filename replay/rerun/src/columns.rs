@@ -10,7 +10,7 @@ use arrow::array::{
 use arrow::buffer::{Buffer, OffsetBuffer, ScalarBuffer};
 use arrow::datatypes::Field;
 use re_chunk::{Chunk, TimeColumn};
-use re_log_types::TimeType;
+use re_log_types::{TimeType, Timeline, TimelineName};
 use re_sdk_types::ComponentDescriptor;
 
 use crate::components;
@@ -57,10 +57,17 @@ pub enum ValueType {
 
 impl ValueType {
     fn from_c(value: u32) -> Result<Self, Failure> {
-        [Self::F32, Self::F64, Self::U8, Self::U32, Self::U64, Self::Text]
-            .into_iter()
-            .find(|candidate| *candidate as u32 == value)
-            .ok_or_else(|| Failure::argument(format!("{value} is no column type")))
+        [
+            Self::F32,
+            Self::F64,
+            Self::U8,
+            Self::U32,
+            Self::U64,
+            Self::Text,
+        ]
+        .into_iter()
+        .find(|candidate| *candidate as u32 == value)
+        .ok_or_else(|| Failure::argument(format!("{value} is no column type")))
     }
 
     fn size(self) -> usize {
@@ -116,7 +123,9 @@ impl OwnedChunk {
         let entity = unsafe { text_from(chunk.entity, "entity")? }.to_owned();
         let rows = chunk.rows as usize;
         if rows == 0 || chunk.column_count == 0 {
-            return Err(Failure::argument(format!("{entity}: a chunk needs rows and columns")));
+            return Err(Failure::argument(format!(
+                "{entity}: a chunk needs rows and columns"
+            )));
         }
         let mut timelines = Vec::with_capacity(chunk.timeline_count);
         for line in unsafe { slice(chunk.timelines, chunk.timeline_count, "timelines")? } {
@@ -139,20 +148,34 @@ impl OwnedChunk {
             bytes += column.data.len();
             columns.push(column);
         }
-        Ok(Self { entity, timelines, columns, bytes })
+        Ok(Self {
+            entity,
+            timelines,
+            columns,
+            bytes,
+        })
     }
 
     pub fn into_chunk(self) -> Result<Chunk, Failure> {
         let entity = self.entity;
         let failed = |error: String| Failure::new(Code::BadArgument, format!("{entity}: {error}"));
-        let timelines = self.timelines.into_iter().map(|line| {
-            let timeline = re_log_types::Timeline::new(line.name, line.kind);
-            TimeColumn::new(None, timeline, ScalarBuffer::from(line.values))
-        });
+        let mut timelines = Vec::with_capacity(self.timelines.len());
+        for line in self.timelines {
+            let name = TimelineName::try_new(line.name).map_err(|e| failed(e.to_string()))?;
+            let timeline = Timeline::new(name, line.kind);
+            timelines.push(TimeColumn::new(
+                None,
+                timeline,
+                ScalarBuffer::from(line.values),
+            ));
+        }
         let mut columns = Vec::with_capacity(self.columns.len());
         for column in self.columns {
             let descriptor = column.descriptor.clone();
-            columns.push((descriptor, column.into_list().map_err(|e| failed(e.to_string()))?));
+            columns.push((
+                descriptor,
+                column.into_list().map_err(|e| failed(e.to_string()))?,
+            ));
         }
         Chunk::from_columns(entity.as_str(), timelines, columns).map_err(|e| failed(e.to_string()))
     }
@@ -164,7 +187,9 @@ impl OwnedColumn {
         let value_type = ValueType::from_c(column.value_type)?;
         let (width, instances) = (column.width, column.instances as usize);
         if width == 0 || i32::try_from(width).is_err() {
-            return Err(Failure::argument(format!("{name}: a width of {width} is not possible")));
+            return Err(Failure::argument(format!(
+                "{name}: a width of {width} is not possible"
+            )));
         }
         let counts = if column.counts.is_null() {
             if instances % rows != 0 {
@@ -178,13 +203,17 @@ impl OwnedColumn {
             counts.iter().map(|count| *count as usize).collect()
         };
         if counts.iter().sum::<usize>() != instances || i32::try_from(instances).is_err() {
-            return Err(Failure::argument(format!("{name}: counts and instances disagree")));
+            return Err(Failure::argument(format!(
+                "{name}: counts and instances disagree"
+            )));
         }
         let mut text_ends = Vec::new();
         let bytes = if value_type == ValueType::Text {
             let ends = unsafe { slice(column.text_ends, instances, "text_ends")? };
             if !ends.is_sorted() || ends.last().is_some_and(|end| i32::try_from(*end).is_err()) {
-                return Err(Failure::argument(format!("{name}: ends of text must ascend")));
+                return Err(Failure::argument(format!(
+                    "{name}: ends of text must ascend"
+                )));
             }
             text_ends = ends.iter().map(|end| *end as usize).collect();
             text_ends.last().copied().unwrap_or(0)
@@ -205,24 +234,33 @@ impl OwnedColumn {
     fn into_list(self) -> Result<ListArray, arrow::error::ArrowError> {
         let count = self.instances * self.width as usize;
         let values: ArrayRef = match self.value_type {
-            ValueType::F32 => {
-                Arc::new(Float32Array::new(ScalarBuffer::new(self.data, 0, count), None))
-            }
-            ValueType::F64 => {
-                Arc::new(Float64Array::new(ScalarBuffer::new(self.data, 0, count), None))
-            }
-            ValueType::U8 => {
-                Arc::new(UInt8Array::new(ScalarBuffer::new(self.data, 0, count), None))
-            }
-            ValueType::U32 => {
-                Arc::new(UInt32Array::new(ScalarBuffer::new(self.data, 0, count), None))
-            }
-            ValueType::U64 => {
-                Arc::new(UInt64Array::new(ScalarBuffer::new(self.data, 0, count), None))
-            }
+            ValueType::F32 => Arc::new(Float32Array::new(
+                ScalarBuffer::new(self.data, 0, count),
+                None,
+            )),
+            ValueType::F64 => Arc::new(Float64Array::new(
+                ScalarBuffer::new(self.data, 0, count),
+                None,
+            )),
+            ValueType::U8 => Arc::new(UInt8Array::new(
+                ScalarBuffer::new(self.data, 0, count),
+                None,
+            )),
+            ValueType::U32 => Arc::new(UInt32Array::new(
+                ScalarBuffer::new(self.data, 0, count),
+                None,
+            )),
+            ValueType::U64 => Arc::new(UInt64Array::new(
+                ScalarBuffer::new(self.data, 0, count),
+                None,
+            )),
             ValueType::Text => {
                 let begins = std::iter::once(&0).chain(&self.text_ends);
-                let lengths = self.text_ends.iter().zip(begins).map(|(end, begin)| end - begin);
+                let lengths = self
+                    .text_ends
+                    .iter()
+                    .zip(begins)
+                    .map(|(end, begin)| end - begin);
                 let offsets = OffsetBuffer::from_lengths(lengths);
                 Arc::new(StringArray::try_new(offsets, self.data, None)?)
             }
@@ -231,9 +269,19 @@ impl OwnedColumn {
             values
         } else {
             let item = Arc::new(Field::new("item", values.data_type().clone(), false));
-            Arc::new(FixedSizeListArray::try_new(item, self.width as i32, values, None)?)
+            Arc::new(FixedSizeListArray::try_new(
+                item,
+                self.width as i32,
+                values,
+                None,
+            )?)
         };
         let item = Arc::new(Field::new("item", instances.data_type().clone(), true));
-        ListArray::try_new(item, OffsetBuffer::from_lengths(self.counts), instances, None)
+        ListArray::try_new(
+            item,
+            OffsetBuffer::from_lengths(self.counts),
+            instances,
+            None,
+        )
     }
 }

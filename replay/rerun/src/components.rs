@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use re_sdk_types::ComponentDescriptor;
 use re_sdk_types::archetypes::{
     Arrows3D, Boxes3D, Capsules3D, Cylinders3D, Ellipsoids3D, InstancePoses3D, LineStrips3D,
     Mesh3D, Points3D, Scalars, SeriesLines, TextDocument, TextLog, ViewCoordinates,
 };
+use re_sdk_types::{ArchetypeName, ComponentDescriptor, ComponentIdentifier};
 
 use crate::columns::ValueType;
 use crate::failure::Failure;
@@ -75,7 +75,14 @@ static KNOWN: LazyLock<HashMap<String, Known>> = LazyLock::new(|| {
     table
         .into_iter()
         .map(|(descriptor, value_type, width)| {
-            (descriptor.component.to_string(), Known { descriptor, value_type, width })
+            (
+                descriptor.component.to_string(),
+                Known {
+                    descriptor,
+                    value_type,
+                    width,
+                },
+            )
         })
         .collect()
 });
@@ -101,7 +108,10 @@ pub fn descriptor(
                 && archetype.starts_with(OWN_PREFIX)
                 && !field.is_empty() =>
         {
-            Ok(ComponentDescriptor::partial(name).with_archetype(archetype.into()))
+            let invalid = |e: &dyn std::fmt::Display| Failure::argument(format!("{name}: {e}"));
+            let component = ComponentIdentifier::try_new(name).map_err(|e| invalid(&e))?;
+            let archetype = ArchetypeName::try_new(archetype).map_err(|e| invalid(&e))?;
+            Ok(ComponentDescriptor::partial(component).with_archetype(archetype))
         }
         _ => Err(Failure::argument(format!(
             "unknown component '{name}': give one of Rerun's, or plumb.<Archetype>:<field>"

@@ -22,7 +22,10 @@ pub struct Failure {
 
 impl Failure {
     pub fn new(code: Code, text: impl Into<String>) -> Self {
-        Self { code, text: text.into() }
+        Self {
+            code,
+            text: text.into(),
+        }
     }
 
     pub fn argument(text: impl Into<String>) -> Self {

@@ -10,9 +10,7 @@ use std::io::{BufReader, Read, Seek, SeekFrom};
 use arrow::array::{
     Array, ArrayRef, ArrowPrimitiveType, FixedSizeListArray, ListArray, PrimitiveArray, StringArray,
 };
-use arrow::datatypes::{
-    DataType, Float32Type, Float64Type, UInt8Type, UInt32Type, UInt64Type,
-};
+use arrow::datatypes::{DataType, Float32Type, Float64Type, UInt8Type, UInt32Type, UInt64Type};
 use re_chunk::Chunk;
 use re_log_encoding::{
     Decodable, DecoderApp, MessageHeader, MessageKind, StreamFooter, StreamHeader,
@@ -73,7 +71,10 @@ struct Frames {
 }
 
 fn malformed(path: &str, at: u64, reason: impl std::fmt::Display) -> Failure {
-    Failure::new(Code::Malformed, format!("{path}: not a recording at byte {at}: {reason}"))
+    Failure::new(
+        Code::Malformed,
+        format!("{path}: not a recording at byte {at}: {reason}"),
+    )
 }
 
 fn walk_frames(path: &str, file: &mut File) -> Result<Frames, Failure> {
@@ -83,7 +84,9 @@ fn walk_frames(path: &str, file: &mut File) -> Result<Frames, Failure> {
     let mut reader = BufReader::new(file);
 
     let mut header = [0; StreamHeader::ENCODED_SIZE_BYTES];
-    reader.read_exact(&mut header).map_err(|_| malformed(path, 0, "it is too short"))?;
+    reader
+        .read_exact(&mut header)
+        .map_err(|_| malformed(path, 0, "it is too short"))?;
     StreamHeader::from_rrd_bytes(&header).map_err(|e| malformed(path, 0, e))?;
 
     let mut at = header.len() as u64;
@@ -106,19 +109,30 @@ fn walk_frames(path: &str, file: &mut File) -> Result<Frames, Failure> {
             _ => break,
         }
     }
-    Ok(Frames { file_bytes, whole_bytes: at, finished })
+    Ok(Frames {
+        file_bytes,
+        whole_bytes: at,
+        finished,
+    })
 }
 
 /// Whether the payload of the end message is followed by a footer whose checksum it has.
 fn has_footer(reader: &mut impl Read, payload_bytes: u64) -> bool {
     let mut payload = vec![0; payload_bytes as usize];
     let mut footer = [0; StreamFooter::ENCODED_SIZE_BYTES];
-    if reader.read_exact(&mut payload).and_then(|()| reader.read_exact(&mut footer)).is_err() {
+    if reader
+        .read_exact(&mut payload)
+        .and_then(|()| reader.read_exact(&mut footer))
+        .is_err()
+    {
         return false;
     }
     StreamFooter::from_rrd_bytes(&footer).is_ok_and(|footer| {
         let checksum = StreamFooter::compute_crc(&payload);
-        footer.entries.first().is_some_and(|entry| entry.crc_excluding_header == checksum)
+        footer
+            .entries
+            .first()
+            .is_some_and(|entry| entry.crc_excluding_header == checksum)
     })
 }
 
@@ -129,14 +143,19 @@ pub fn read(
     user: *mut c_void,
     summary: &mut CSummary,
 ) -> Result<(), Failure> {
-    let mut file = File::open(path)
-        .map_err(|e| Failure::new(Code::Io, format!("cannot open {path}: {e}")))?;
+    let mut file =
+        File::open(path).map_err(|e| Failure::new(Code::Io, format!("cannot open {path}: {e}")))?;
     let frames = walk_frames(path, &mut file)?;
     summary.file_bytes = frames.file_bytes;
     summary.finished = c_int::from(frames.finished);
-    summary.cut_bytes = if frames.finished { 0 } else { frames.file_bytes - frames.whole_bytes };
+    summary.cut_bytes = if frames.finished {
+        0
+    } else {
+        frames.file_bytes - frames.whole_bytes
+    };
 
-    file.rewind().map_err(|e| Failure::new(Code::Io, format!("reading {path}: {e}")))?;
+    file.rewind()
+        .map_err(|e| Failure::new(Code::Io, format!("reading {path}: {e}")))?;
     let whole = BufReader::with_capacity(READ_BUFFER_BYTES, file.take(frames.whole_bytes));
     let mut decoder = DecoderApp::decode_lazy(whole);
     while let Some(message) = decoder.next() {
@@ -149,8 +168,7 @@ pub fn read(
             }
             LogMsg::ArrowMsg(store, message) if store.is_recording() => {
                 summary.chunks += 1;
-                let chunk =
-                    Chunk::from_arrow_msg(&message).map_err(|e| malformed(path, at, e))?;
+                let chunk = Chunk::from_arrow_msg(&message).map_err(|e| malformed(path, at, e))?;
                 read_chunk(&chunk, entity_prefix, callback, user)?;
             }
             _ => {}
@@ -186,7 +204,10 @@ fn read_chunk(
 
     let mut timelines: Vec<_> = chunk.timelines().values().collect();
     timelines.sort_by_key(|column| column.name().to_owned());
-    let names: Vec<CString> = timelines.iter().map(|column| c_text(column.name())).collect();
+    let names: Vec<CString> = timelines
+        .iter()
+        .map(|column| c_text(column.name()))
+        .collect();
     let name_pointers: Vec<*const c_char> = names.iter().map(|name| name.as_ptr()).collect();
 
     let mut components: Vec<_> = chunk.components().0.iter().collect();
@@ -197,12 +218,17 @@ fn read_chunk(
         .collect();
 
     for row in 0..chunk.num_rows() {
-        let times: Vec<i64> = timelines.iter().map(|column| column.times_raw()[row]).collect();
+        let times: Vec<i64> = timelines
+            .iter()
+            .map(|column| column.times_raw()[row])
+            .collect();
         for (component, list) in &components {
             if list.is_null(row) {
                 continue;
             }
-            let Some(values) = Values::from_arrow(&list.value(row)) else { continue };
+            let Some(values) = Values::from_arrow(&list.value(row)) else {
+                continue;
+            };
             let cell = CCell {
                 entity: entity.as_ptr(),
                 component: component.as_ptr(),
@@ -256,13 +282,26 @@ impl Values {
             DataType::Utf8 => {
                 let texts = values.as_any().downcast_ref::<StringArray>()?;
                 let begin = texts.value_offsets()[0];
-                text_ends = texts.value_offsets()[1..].iter().map(|e| (e - begin) as u64).collect();
-                (ValueType::Text, texts.value_data()[begin as usize..].as_ptr())
+                text_ends = texts.value_offsets()[1..]
+                    .iter()
+                    .map(|e| (e - begin) as u64)
+                    .collect();
+                (
+                    ValueType::Text,
+                    texts.value_data()[begin as usize..].as_ptr(),
+                )
             }
             _ => return None,
         };
         let count = instances.len();
-        Some(Self { value_type, width: width as u32, instances: count, data, text_ends, _owner: values })
+        Some(Self {
+            value_type,
+            width: width as u32,
+            instances: count,
+            data,
+            text_ends,
+            _owner: values,
+        })
     }
 }
 

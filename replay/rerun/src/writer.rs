@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use re_chunk::{Chunk, RowId};
 use re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
-use re_log_types::{EntityPath, LogMsg, SetStoreInfo, StoreId, TimePoint};
+use re_log_types::{ApplicationId, EntityPath, LogMsg, SetStoreInfo, StoreId, TimePoint};
 use re_sdk_types::archetypes::RecordingInfo;
 
 use crate::blueprint::Layout;
@@ -27,8 +27,13 @@ const MOST_BYTES_WAITING: u64 = 256 << 20;
 enum Job {
     Chunk(OwnedChunk),
     Message(Box<LogMsg>),
-    Flush { durable: bool, done: Sender<Result<(), Failure>> },
-    Close { done: Sender<Result<(), Failure>> },
+    Flush {
+        durable: bool,
+        done: Sender<Result<(), Failure>>,
+    },
+    Close {
+        done: Sender<Result<(), Failure>>,
+    },
 }
 
 #[derive(Default)]
@@ -74,11 +79,16 @@ impl Writer {
         let file = File::create(path).map_err(|e| failed("create", &e))?;
         let handle = file.try_clone().map_err(|e| failed("open", &e))?;
         let shared = Arc::new(Shared::default());
-        let counted = CountedFile { file, shared: shared.clone() };
+        let counted = CountedFile {
+            file,
+            shared: shared.clone(),
+        };
         let options = EncodingOptions::PROTOBUF_COMPRESSED;
         let encoder = Encoder::new_eager(CrateVersion::LOCAL, options, counted)
             .map_err(|e| failed("write", &e))?;
 
+        let application_id = ApplicationId::try_new(application_id)
+            .map_err(|e| Failure::argument(format!("application_id: {e}")))?;
         let info = re_sdk::new_store_info(application_id);
         let store = info.store_id.clone();
         let (jobs, queue) = channel();
@@ -95,8 +105,16 @@ impl Writer {
             .spawn(move || thread.run(&queue))
             .map_err(|e| failed("start a thread to write", &e))?;
 
-        let writer = Self { path: path.to_owned(), store, jobs, shared };
-        writer.post(LogMsg::SetStoreInfo(SetStoreInfo { row_id: *RowId::new(), info }))?;
+        let writer = Self {
+            path: path.to_owned(),
+            store,
+            jobs,
+            shared,
+        };
+        writer.post(LogMsg::SetStoreInfo(SetStoreInfo {
+            row_id: *RowId::new(),
+            info,
+        }))?;
         writer.post_properties(name)?;
         Ok(writer)
     }
@@ -118,7 +136,10 @@ impl Writer {
     fn enqueue(&self, job: Job) -> Result<(), Failure> {
         self.jobs.send(job).map_err(|_| {
             self.shared.result().err().unwrap_or_else(|| {
-                Failure::new(Code::Io, format!("the thread that writes {} is gone", self.path))
+                Failure::new(
+                    Code::Io,
+                    format!("the thread that writes {} is gone", self.path),
+                )
             })
         })
     }
@@ -131,8 +152,11 @@ impl Writer {
     pub fn send(&self, chunk: OwnedChunk) -> Result<(), Failure> {
         let mut waiting = self.shared.lock();
         while waiting.failure.is_none() && waiting.bytes > MOST_BYTES_WAITING {
-            waiting =
-                self.shared.less_waiting.wait(waiting).unwrap_or_else(PoisonError::into_inner);
+            waiting = self
+                .shared
+                .less_waiting
+                .wait(waiting)
+                .unwrap_or_else(PoisonError::into_inner);
         }
         if let Some(failure) = &waiting.failure {
             return Err(failure.clone());
@@ -190,7 +214,9 @@ struct CountedFile {
 impl Write for CountedFile {
     fn write(&mut self, buffer: &[u8]) -> std::io::Result<usize> {
         let taken = self.file.write(buffer)?;
-        self.shared.written.fetch_add(taken as u64, Ordering::Relaxed);
+        self.shared
+            .written
+            .fetch_add(taken as u64, Ordering::Relaxed);
         Ok(taken)
     }
 
@@ -229,7 +255,9 @@ impl WriterThread {
                 self.shared.less_waiting.notify_all();
                 if self.shared.result().is_ok() {
                     let message = chunk.into_chunk().and_then(|chunk| {
-                        chunk.to_arrow_msg().map_err(|e| Failure::argument(e.to_string()))
+                        chunk
+                            .to_arrow_msg()
+                            .map_err(|e| Failure::argument(e.to_string()))
                     });
                     match message {
                         Ok(message) => self.append(&LogMsg::ArrowMsg(self.store.clone(), message)),
@@ -248,7 +276,11 @@ impl WriterThread {
                 if self.shared.result().is_ok() {
                     let flushed = self.encoder.flush_blocking().map_err(|e| self.io(&e));
                     let synced = flushed.and_then(|()| {
-                        if durable { self.handle.sync_data().map_err(|e| self.io(&e)) } else { Ok(()) }
+                        if durable {
+                            self.handle.sync_data().map_err(|e| self.io(&e))
+                        } else {
+                            Ok(())
+                        }
                     });
                     if let Err(failure) = synced {
                         self.fail(failure);
