@@ -54,12 +54,20 @@ int main() {
   Engine engine;
   Physics physics(engine);
   constexpr Entity kGround = 1, kBall = 2;
-  physics.add(kGround, {.type = plumb::MotionType::Static}, {.shape = plumb::HalfSpace{}});
-  physics.add(kBall, {.pose = {.position = {0, 5, 0}}}, {.shape = plumb::Sphere{plumb::Real(0.5)}});
+  plumb::RigidBody body;
+  plumb::Collider collider;
+  body.pose.position.y() = 5;
+  collider.shape = plumb::Sphere{plumb::Real(0.5)};
+  physics.add(kBall, body, collider);
+  body.type = plumb::MotionType::Static;
+  body.pose.position.y() = 0;
+  collider.shape = plumb::HalfSpace{};
+  physics.add(kGround, body, collider);
 
   constexpr double kFrame = 1.0 / 144;  // [s] of the engine's display; physics keeps its own 1/60 s
   for (int frame = 0; frame <= 3 * 144; ++frame) {
-    if (frame % 72 == 0) std::printf("%.1f s: ball at y = %.3f m\n", frame * kFrame, engine.transforms[kBall].y);
     physics.update(kFrame);
+    if (frame % 72 == 0)
+      std::printf("%.1f s: ball at y = %.3f m\n", frame * kFrame, engine.transforms[kBall].y);
   }
 }

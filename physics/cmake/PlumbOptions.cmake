@@ -11,7 +11,7 @@ endif()
 
 # The recorder is built on the Rerun SDK, which is written in Rust.
 find_program(PLUMB_CARGO cargo HINTS "$ENV{HOME}/.cargo/bin" DOC "Rust's cargo, for replay")
-if(PLUMB_CARGO AND EXISTS "${PROJECT_SOURCE_DIR}/replay/CMakeLists.txt")
+if(PLUMB_CARGO)
   set(plumb_replay_default ON)
 else()
   set(plumb_replay_default OFF)

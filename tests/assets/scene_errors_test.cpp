@@ -144,7 +144,7 @@ const BadScene kBadScenes[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, SceneErrors, testing::ValuesIn(kBadScenes),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 // Several mistakes are told in one go, in the order of the file.
 TEST(SceneErrorList, TellsAllInOrder) {

@@ -112,7 +112,7 @@ TEST(SceneInstantiate, MeshBodiesWeighWhatTheMeshWeighs) {
 
 TEST(SceneInstantiate, LeavesTheWorldAloneOnAnError) {
   PhysicsWorld world;
-  const auto kept = world.create_body({.pose = {.position = {1, 2, 3}}});
+  const auto kept = world.create_body(RigidBody{});
   const WorldSettings before = world.settings();
   const auto scene = parse_scene(R"({
     "plumb_scene": 1, "settings": { "substeps": 9 },

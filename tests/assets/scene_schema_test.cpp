@@ -25,7 +25,7 @@ json schema() {
 
 std::set<std::string> words(scene_keys::Keys keys) { return {keys.begin(), keys.end()}; }
 
-std::set<std::string> words(const json& list) { return list.get<std::set<std::string>>(); }
+std::set<std::string> words_of(const json& list) { return list.get<std::set<std::string>>(); }
 
 TEST(SceneSchema, KnowsTheKeysOfTheLoader) {
   const json definitions = schema().at("$defs");
@@ -48,15 +48,15 @@ TEST(SceneSchema, KnowsTheKeysOfTheLoader) {
 TEST(SceneSchema, KnowsTheWordsOfTheLoader) {
   const json d = schema().at("$defs");
   const auto enum_of = [&](const char* object, const char* key) {
-    return words(d.at(object).at("properties").at(key).at("enum"));
+    return words_of(d.at(object).at("properties").at(key).at("enum"));
   };
   EXPECT_EQ(enum_of("body", "type"), words(scene_keys::kMotionTypes));
   EXPECT_EQ(enum_of("settings", "rotation"), words(scene_keys::kRotationMethods));
   EXPECT_EQ(enum_of("mesh", "up"), words(scene_keys::kAxes));
   EXPECT_EQ(enum_of("mesh", "collision"), words(scene_keys::kCollisions));
   EXPECT_EQ(enum_of("mass_of", "method"), words(scene_keys::kMassMethods));
-  EXPECT_EQ(words(d.at("combine_rule").at("enum")), words(scene_keys::kCombineRules));
-  EXPECT_EQ(words(d.at("body").at("properties").at("locks").at("items").at("enum")),
+  EXPECT_EQ(words_of(d.at("combine_rule").at("enum")), words(scene_keys::kCombineRules));
+  EXPECT_EQ(words_of(d.at("body").at("properties").at("locks").at("items").at("enum")),
             words(scene_keys::kLocks));
   std::set<std::string> shapes;
   for (const auto& shape : scene_keys::kShapeKeys) shapes.emplace(shape.shape);

@@ -7,7 +7,7 @@ set(PLUMB_TEST_TIMEOUT 900)  # [s]
 # no absolute path, so that the compiler cache serves any checkout.
 function(plumb_test_program target)
   cmake_parse_arguments(arg "READS_TREE" "FOLDER;PREFIX" "LIBRARIES;INCLUDES" ${ARGN})
-  plumb_glob(sources ${arg_FOLDER}/*.cpp)
+  plumb_glob(sources ${arg_FOLDER}/*.cpp ${arg_FOLDER}/*.c)
   if(NOT sources)
     return()
   endif()
@@ -18,10 +18,14 @@ function(plumb_test_program target)
   if(arg_READS_TREE)
     target_compile_definitions(${target} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   endif()
-  target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <cmath> <string> <vector>)
+  set(headers gtest/gtest.h cmath string vector)
   if(arg_LIBRARIES)
-    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry>)
+    list(APPEND headers Eigen/Core Eigen/Geometry)
   endif()
+  foreach(header IN LISTS headers)
+    target_precompile_headers(${target} PRIVATE
+                              "$<$<COMPILE_LANGUAGE:CXX>:<${header}$<ANGLE-R>>")
+  endforeach()
   # What ccache needs to see through a precompiled header.
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>

@@ -2,6 +2,7 @@
 // bodies that moved are touched.
 #include "plumb/integration/pose_sync.h"
 
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -27,7 +28,7 @@ class PoseSyncTest : public testing::Test {
     body.user_data = entity;
     const auto created = world_.create_body(body);
     EXPECT_TRUE(created.ok()) << created.status.message;
-    EXPECT_TRUE(world_.create_collider(created.id, {.shape = Sphere{Real(0.5)}}).ok());
+    EXPECT_TRUE(world_.create_collider(created.id, Collider{}).ok());
     return created.id;
   }
   // What the engine would see in this frame.

@@ -74,7 +74,8 @@ std::set<Pair> pairs_by_tree(const Scene& scene) {
     EXPECT_EQ(scene.tree.item(entry.proxy), item);
     const std::uint32_t self = item;
     scene.tree.query(entry.box, [&](std::uint32_t other) {
-      EXPECT_TRUE(seen.insert({self, other}).second) << "pair " << self << ", " << other << " twice";
+      EXPECT_TRUE(seen.insert({self, other}).second)
+          << "pair " << self << ", " << other << " twice";
       if (self < other) pairs.insert({self, other});
     });
     EXPECT_TRUE(seen.contains({item, item})) << "leaf " << item << " does not find itself";
@@ -126,7 +127,8 @@ TEST(AabbTree, FindsTheKnownPairsInEveryOrderOfInsertion) {
       }
       for (const Pair& pair : known.pairs) {
         const auto place = [&](std::uint32_t k) {
-          return static_cast<std::uint32_t>(std::find(order.begin(), order.end(), k) - order.begin());
+          return static_cast<std::uint32_t>(std::find(order.begin(), order.end(), k) -
+                                            order.begin());
         };
         expected.insert(std::minmax(place(pair.first), place(pair.second)));
       }
@@ -177,7 +179,8 @@ TEST(AabbTree, TouchingBoxesArePairs) {
 WorldAabb random_box(std::mt19937& random, PosReal shift) {
   std::uniform_real_distribution<PosReal> place(-50, 50), exponent(-2, PosReal(1.5));
   const PosVec centre{shift + place(random), place(random) - shift, place(random)};
-  const PosVec half{std::pow(PosReal(10), exponent(random)), std::pow(PosReal(10), exponent(random)),
+  const PosVec half{std::pow(PosReal(10), exponent(random)),
+                    std::pow(PosReal(10), exponent(random)),
                     std::pow(PosReal(10), exponent(random))};
   return {centre - half, centre + half};
 }
@@ -276,7 +279,8 @@ bool meets(PosVec origin, PosVec direction, PosReal max_fraction, const WorldAab
   long double t0 = 0, t1 = max_fraction;
   for (int axis = 0; axis < 3; ++axis) {
     const long double o = component(origin, axis), d = component(direction, axis);
-    const long double lower = component(box.lower, axis) - grow, upper = component(box.upper, axis) + grow;
+    const long double lower = component(box.lower, axis) - grow,
+                      upper = component(box.upper, axis) + grow;
     if (d == 0) {
       if (o < lower || o > upper) return false;
       continue;
@@ -297,7 +301,8 @@ TEST_P(AabbTreeRay, VisitsExactlyTheBoxesItMeets) {
   scene.add({{-kNoEnd, -kNoEnd, -kNoEnd}, {kNoEnd, -GetParam() - 40, kNoEnd}});
   std::uniform_real_distribution<PosReal> place(-60, 60);
   // A box that the exact test misses by less than the rounding of places may be visited too.
-  const long double blur = 8 * std::numeric_limits<PosReal>::epsilon() * (std::abs(GetParam()) + 200);
+  const long double blur =
+      8 * std::numeric_limits<PosReal>::epsilon() * (std::abs(GetParam()) + 200);
   std::size_t met = 0;
   for (int i = 0; i < 500; ++i) {
     const PosVec origin{GetParam() + place(random), place(random) - GetParam(), place(random)};

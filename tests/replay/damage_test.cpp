@@ -66,8 +66,11 @@ TEST(CutFile, IsReadUpToTheCutAndReportedAsUnfinished) {
     const auto result = replay::verify(path);
     EXPECT_FALSE(result.finished) << part;
     EXPECT_FALSE(result.difference.has_value()) << part;
-    if (result.outcome.ok()) most_steps = std::max(most_steps, result.steps);
-    else EXPECT_TRUE(mentions(result.outcome.error, path)) << result.outcome.error;
+    if (result.outcome.ok()) {
+      most_steps = std::max(most_steps, result.steps);
+    } else {
+      EXPECT_TRUE(mentions(result.outcome.error, path)) << result.outcome.error;
+    }
   }
   EXPECT_GE(most_steps, 50u);
   EXPECT_LE(most_steps, 60u);

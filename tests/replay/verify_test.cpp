@@ -94,7 +94,9 @@ TEST(Diff, NamesTheFirstFrameBodyAndQuantity) {
   world.attach(&recorder);
   for (int step = 0; step < 30; ++step) {
     act_between_steps(world, bodies, step);
-    if (step == 11) ASSERT_TRUE(world.set_linear_velocity(bodies[4], Vec3(0, 1, 0)).ok());
+    if (step == 11) {
+      ASSERT_TRUE(world.set_linear_velocity(bodies[4], Vec3(0, 1, 0)).ok());
+    }
     ASSERT_TRUE(world.step(kDt).status.ok());
   }
   world.detach(&recorder);

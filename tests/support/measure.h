@@ -1,5 +1,8 @@
-// What tests measure, and the round-off that the build's number types allow.
+// What tests measure, and the round-off that the build's number types allow. (For tests only: needs
+// Google Test. Benchmarks and demos take build.h and scenes.h.)
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
@@ -102,11 +105,11 @@ inline void run(PhysicsWorld& world, double seconds, double dt = 1.0 / 60) {
   const long steps = std::lround(seconds / dt);
   for (long i = 0; i < steps; ++i) world.step(dt);
 }
-// The same, looking at the world after every step.
+// The same, looking at the world after every step; an ASSERT that fails in there ends the run.
 template <class Look>
 void run(PhysicsWorld& world, double seconds, double dt, const Look& look) {
   const long steps = std::lround(seconds / dt);
-  for (long i = 0; i < steps; ++i) {
+  for (long i = 0; i < steps && !::testing::Test::HasFatalFailure(); ++i) {
     world.step(dt);
     look();
   }

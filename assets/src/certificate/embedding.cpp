@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "certificate/surface.h"
 #include "geometry/triangle_bvh.h"
@@ -9,6 +11,8 @@
 namespace plumb::inline PLUMB_ABI::assets::detail {
 namespace {
 
+using Eigen::Vector3d;
+
 // Pairs of overlapping boxes to look at before giving up [1]: some 20 s. A mesh of 1e5 even faces
 // has about 1e6; only a soup of long thin faces comes near.
 constexpr std::size_t kMaxPairs = 100'000'000;
@@ -17,10 +21,34 @@ constexpr std::size_t kMaxExamples = 8;
 // and one face speaks for all. Faces that touch may hide an overlap: up to this many are asked; and
 // as many of all, evenly chosen, where crossings were found or not looked for.
 constexpr std::size_t kMaxWindingSamples = 2000;
+// Where an edge of one face meets the rim of another it may only touch or go through; the faces are
+// asked this share of the way from the meeting point towards points near their corners.
+constexpr double kNearContact = 0.01;
+constexpr double kTowardsCorner = 0.7;  // between centroid and corner
+
+struct Sample {
+  std::uint32_t face;
+  Vector3d point;  // [m] inside the face
+};
+
+Vector3d centroid_of(const Surface& surface, std::uint32_t face) {
+  const Triangle& t = surface.faces[face];
+  const Vector3d &a = surface.places[t[0]], &b = surface.places[t[1]], &c = surface.places[t[2]];
+  return a + (b - a) / 3 + (c - a) / 3;
+}
+
+void append_around(const Surface& surface, std::uint32_t face, const Vector3d& contact,
+                   std::vector<Sample>& samples) {
+  const Vector3d centroid = centroid_of(surface, face);
+  for (const std::uint32_t corner : surface.faces[face]) {
+    const Vector3d target = centroid + kTowardsCorner * (surface.places[corner] - centroid);
+    samples.push_back({face, contact + kNearContact * (target - contact)});
+  }
+}
 
 void find_crossings(const Surface& surface, const std::vector<std::uint32_t>& faces,
                     const CertifyOptions& options, MeshCertificate& certificate,
-                    std::vector<bool>& touched) {
+                    std::vector<bool>& touched, std::vector<Sample>& samples) {
   const TriangleBvh bvh(surface.places, surface.faces, faces);
   std::size_t pairs = 0;
   certificate.embedding = Embedding::Clean;
@@ -33,11 +61,16 @@ void find_crossings(const Surface& surface, const std::vector<std::uint32_t>& fa
     std::sort(first.begin(), first.end());
     std::sort(second.begin(), second.end());
     if (first == second) return true;  // counted as a duplicate face
-    switch (relation_of(surface.places, surface.faces[a], surface.faces[b])) {
+    std::optional<Vector3d> contact;
+    switch (relation_of(surface.places, surface.faces[a], surface.faces[b], contact)) {
       case PairRelation::Apart: return true;
       case PairRelation::Touching:
         ++certificate.touching_pairs;
         touched[a] = touched[b] = true;
+        if (contact && samples.size() < kMaxWindingSamples) {
+          append_around(surface, a, *contact, samples);
+          append_around(surface, b, *contact, samples);
+        }
         break;
       case PairRelation::Crossing:
         ++certificate.crossing_pairs;
@@ -81,12 +114,19 @@ std::vector<std::uint32_t> faces_to_sample(const Surface& surface, const MeshCer
 }
 
 void sample_winding(const Surface& surface, const std::vector<std::uint32_t>& faces,
-                    const std::vector<bool>& touched, MeshCertificate& certificate) {
+                    const std::vector<bool>& touched, const std::vector<Sample>& samples,
+                    MeshCertificate& certificate) {
   const WindingField field(surface.places, surface.faces, faces);
   std::vector<bool> seen(certificate.components, false);
   bool first = true;
+  // The components' own faces come first: they decide what is a cavity.
+  std::vector<Sample> all;
   for (const std::uint32_t f : faces_to_sample(surface, certificate, faces, touched)) {
-    const WindingField::Sides sides = field.beside(f);
+    all.push_back({f, centroid_of(surface, f)});
+  }
+  all.insert(all.end(), samples.begin(), samples.end());
+  for (const auto& [f, point] : all) {
+    const WindingField::Sides sides = field.beside(f, point);
     const int front = static_cast<int>(std::lround(sides.front));
     const int back = static_cast<int>(std::lround(sides.back));
     certificate.winding_min = first ? std::min(front, back) : std::min({certificate.winding_min, front, back});
@@ -115,9 +155,10 @@ void examine_embedding(const Surface& surface, const CertifyOptions& options,
   }
   if (faces.empty()) return;
   std::vector<bool> touched(surface.faces.size(), false);
-  if (options.test_self_crossing) find_crossings(surface, faces, options, certificate, touched);
+  std::vector<Sample> samples;
+  if (options.test_self_crossing) find_crossings(surface, faces, options, certificate, touched, samples);
   if (certificate.closed && certificate.consistently_oriented) {
-    sample_winding(surface, faces, touched, certificate);
+    sample_winding(surface, faces, touched, samples, certificate);
   }
 }
 

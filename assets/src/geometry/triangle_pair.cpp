@@ -46,13 +46,17 @@ bool holds_coplanar_point(const Corners& t, const Vector3d& p) {
 }
 
 // The segment from p to q against the closed triangle t.
-PairRelation segment_against(const Vector3d& p, const Vector3d& q, const Corners& t) {
+PairRelation segment_against(const Vector3d& p, const Vector3d& q, const Corners& t,
+                             std::optional<Vector3d>& contact) {
   const int side_p = orientation_3d(t[0], t[1], t[2], p);
   const int side_q = orientation_3d(t[0], t[1], t[2], q);
   if (side_p * side_q > 0) return PairRelation::Apart;
   if (side_p == 0 || side_q == 0) {
-    const bool hit = (side_p == 0 && holds_coplanar_point(t, p)) || (side_q == 0 && holds_coplanar_point(t, q));
-    return hit ? PairRelation::Touching : PairRelation::Apart;
+    const bool p_hits = side_p == 0 && holds_coplanar_point(t, p);
+    const bool q_hits = side_q == 0 && holds_coplanar_point(t, q);
+    if (!p_hits && !q_hits) return PairRelation::Apart;
+    contact = p_hits ? p : q;
+    return PairRelation::Touching;
   }
   // The line p q passes the three edges on the same side exactly if it goes through the triangle.
   const int a = orientation_3d(p, q, t[0], t[1]);
@@ -60,7 +64,11 @@ PairRelation segment_against(const Vector3d& p, const Vector3d& q, const Corners
   const int c = orientation_3d(p, q, t[2], t[0]);
   const int lowest = std::min({a, b, c}), highest = std::max({a, b, c});
   if (lowest < 0 && highest > 0) return PairRelation::Apart;
-  return a != 0 && b != 0 && c != 0 ? PairRelation::Crossing : PairRelation::Touching;
+  if (a != 0 && b != 0 && c != 0) return PairRelation::Crossing;
+  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double height_p = normal.dot(p - t[0]), height_q = normal.dot(q - t[0]);
+  contact = p + height_p / (height_p - height_q) * (q - p);
+  return PairRelation::Touching;
 }
 
 // Do the insides of two triangles in one plane overlap? They do not if an edge of one has all of
@@ -85,7 +93,7 @@ PairRelation worse(PairRelation a, PairRelation b) { return std::max(a, b); }
 }  // namespace
 
 PairRelation relation_of(const std::vector<Vector3d>& places, const Triangle& first,
-                         const Triangle& second) {
+                         const Triangle& second, std::optional<Vector3d>& contact) {
   const Corners a{places[first[0]], places[first[1]], places[first[2]]};
   const Corners b{places[second[0]], places[second[1]], places[second[2]]};
   std::array<bool, 3> a_shared{}, b_shared{};
@@ -110,8 +118,8 @@ PairRelation relation_of(const std::vector<Vector3d>& places, const Triangle& fi
   PairRelation relation = PairRelation::Apart;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t next = (i + 1) % 3;
-    if (!a_shared[i] && !a_shared[next]) relation = worse(relation, segment_against(a[i], a[next], b));
-    if (!b_shared[i] && !b_shared[next]) relation = worse(relation, segment_against(b[i], b[next], a));
+    if (!a_shared[i] && !a_shared[next]) relation = worse(relation, segment_against(a[i], a[next], b, contact));
+    if (!b_shared[i] && !b_shared[next]) relation = worse(relation, segment_against(b[i], b[next], a, contact));
     if (relation == PairRelation::Crossing) return relation;
   }
   return relation;

@@ -1,6 +1,7 @@
 // How two triangles of one mesh lie to each other, exactly for the coordinates as given.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,8 +17,9 @@ enum class PairRelation {
 };
 
 // Vertex indices must name places: equal places, equal indices. Both triangles must have area and
-// must not have all three vertices in common.
+// must not have all three vertices in common. If an edge of one touches the other, `contact` is set
+// to a point where it does [m], to rounding.
 PairRelation relation_of(const std::vector<Eigen::Vector3d>& places, const Triangle& first,
-                         const Triangle& second);
+                         const Triangle& second, std::optional<Eigen::Vector3d>& contact);
 
 }  // namespace plumb::inline PLUMB_ABI::assets::detail

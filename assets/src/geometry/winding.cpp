@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 // A group of faces may stand as one dipole from this many of its radii away. The next term falls
-// with the square of it; 3 keeps the error of a whole field near 0.01 where 0.25 would still do.
+// with the square of it; 3 keeps the error of a whole field below 0.02 where 0.25 would still do.
 constexpr double kFarRadii = 3;
 
 // A point counts as lying on a face when its distance is below this share of the lengths around it:
@@ -106,14 +106,18 @@ double WindingField::at(const Vector3d& point) const {
   return sum(point, kNoTriangle, Vector3d::Zero(), lie_on);
 }
 
+WindingField::Sides WindingField::beside(std::uint32_t triangle, const Vector3d& point) const {
+  const Triangle& t = triangles_[triangle];
+  const Vector3d normal = (vertices_[t[1]] - vertices_[t[0]]).cross(vertices_[t[2]] - vertices_[t[0]]);
+  double jump = 1;  // this face itself
+  const double middle = sum(point, triangle, normal, jump);
+  return {middle - 0.5 * jump, middle + 0.5 * jump};
+}
+
 WindingField::Sides WindingField::beside(std::uint32_t triangle) const {
   const Triangle& t = triangles_[triangle];
   const Vector3d &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
-  const Vector3d normal = (b - a).cross(c - a);
-  const Vector3d centroid = a + (b - a) / 3 + (c - a) / 3;
-  double jump = 1;  // this face itself
-  const double middle = sum(centroid, triangle, normal, jump);
-  return {middle - 0.5 * jump, middle + 0.5 * jump};
+  return beside(triangle, a + (b - a) / 3 + (c - a) / 3);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::assets::detail

@@ -13,6 +13,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +24,19 @@ namespace {
 constexpr std::uint8_t kSuccess = 1, kFailure = 2;
 constexpr int kPollMilliseconds = 50;  // [ms] how often the time limit is looked at
 constexpr std::size_t kChunk = std::size_t{1} << 16;  // [byte] a pipe's usual capacity
+
+// The address sanitizer reserves terabytes for itself: with it no limit on memory can be set.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kLimitMemory = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr bool kLimitMemory = false;
+#else
+constexpr bool kLimitMemory = true;
+#endif
+#else
+constexpr bool kLimitMemory = true;
+#endif
 
 // Flat bytes for the trip between two processes of the same program.
 class Writer {
@@ -194,6 +208,11 @@ Result<Imported> import_mesh_guarded(const std::string& path, const ImportOption
     if (const int quiet = open("/dev/null", O_WRONLY); quiet >= 0) {
       dup2(quiet, STDOUT_FILENO);  // readers print; their last words are not the caller's
       dup2(quiet, STDERR_FILENO);
+    }
+    if (kLimitMemory) {
+      const auto most = static_cast<rlim_t>(options.max_memory_bytes);
+      const rlimit limit{most, most};
+      (void)setrlimit(RLIMIT_AS, &limit);  // without it the reader is only slower to give up
     }
     serve(ends[1], path, options);
   }

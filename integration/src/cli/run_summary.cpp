@@ -18,7 +18,7 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 void RunSummary::begin(const PhysicsWorld& world) {
   const EnergyReport energy = world.energy();
-  first_energy = last_energy = energy.total();
+  first_energy = last_energy = lowest_energy = energy.total();
   largest_kinetic = energy.kinetic_linear + energy.kinetic_angular;
 }
 
@@ -30,8 +30,9 @@ void RunSummary::add(const PhysicsWorld& world, const StepReport& report) {
   largest_penetration = std::max(largest_penetration, report.largest_penetration);
   quarantined += report.quarantined;
   const EnergyReport energy = world.energy();
-  energy_gained += std::max(0.0, energy.total() - last_energy);
   last_energy = energy.total();
+  lowest_energy = std::min(lowest_energy, last_energy);
+  energy_gained = std::max(energy_gained, last_energy - lowest_energy);
   largest_kinetic = std::max(largest_kinetic, energy.kinetic_linear + energy.kinetic_angular);
 }
 
@@ -50,8 +51,8 @@ void RunSummary::print(const assets::Scene& scene, const assets::SceneInstance& 
   std::printf("Contacts     %" PRIu64 " points at the end, at most %" PRIu64
               "; deepest overlap %.3f mm\n",
               contact_points, most_contact_points, kMillimetres * largest_penetration);
-  std::printf("Energy       %.6g J at the start, %.6g J at the end; drift upwards %.3g J"
-              " (%.3g %% of the largest kinetic energy)\n",
+  std::printf("Energy       %.6g J at the start, %.6g J at the end; upward drift at most"
+              " %.3g J (%.3g %% of the largest kinetic energy)\n",
               first_energy, last_energy, energy_gained, 100 * ratio(energy_gained, largest_kinetic));
   std::printf("State hash   %016" PRIx64 "\n", world.state_hash());
   if (!recording.is_open() || recording.bytes() == 0) return;

@@ -20,7 +20,8 @@ struct RunSummary {
   std::uint64_t quarantined = 0;
   double first_energy = 0;             // [J]
   double last_energy = 0;              // [J]
-  double energy_gained = 0;            // [J] sum over the steps in which it rose
+  double lowest_energy = 0;            // [J] so far
+  double energy_gained = 0;            // [J] the most that it ever stood above an earlier value
   double largest_kinetic = 0;          // [J]
 
   void begin(const PhysicsWorld& world);

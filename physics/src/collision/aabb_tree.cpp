@@ -30,9 +30,7 @@ double remoteness(const WorldAabb& a, const WorldAabb& b) {
          along(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
 }
 
-bool is_same(const WorldAabb& a, const WorldAabb& b) {
-  return contains(a, b) && contains(b, a);
-}
+bool is_same(const WorldAabb& a, const WorldAabb& b) { return contains(a, b) && contains(b, a); }
 
 }  // namespace
 
@@ -151,8 +149,8 @@ std::int32_t AabbTree::best_sibling(const WorldAabb& box) const {
       bound[k] = child.is_leaf() ? std::numeric_limits<double>::infinity()
                                  : cost + std::min(own - cost_of(child.box), 0.0);
     }
-    const std::size_t next = bound[0] == bound[1] ? nearer_child(node(at), box)
-                                                  : (bound[1] < bound[0] ? 1 : 0);
+    const std::size_t next =
+        bound[0] == bound[1] ? nearer_child(node(at), box) : (bound[1] < bound[0] ? 1 : 0);
     if (!(bound[next] <= best_cost)) break;
     at = node(at).child[next];
     direct = child_direct[next];

@@ -1,7 +1,8 @@
 // A balanced tree of axis-aligned boxes over colliders (broadphase).
 //
 // Leaves hold the boxes given, inner nodes the union of their two children. Three rules shape it:
-//   where a new leaf goes      the place that adds least surface area: the chance that a query meets
+//   where a new leaf goes      the place that adds least surface area: the chance that a query
+//   meets
 //                              a box is proportional to its area [MacDonald 1990], [Catto 2019]
 //   what a change repairs      on the way up, a child and a grandchild change places where that
 //                              makes the area smaller (tree rotation) [Kopta 2012]

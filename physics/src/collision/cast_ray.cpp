@@ -54,9 +54,9 @@ Hit cast_round(NumVec o, NumVec d, Num radius) {
   const NumVec at_nearest = o + nearest * d;
   const Num room = radius * radius - length_squared(at_nearest);
   if (!(room >= Num(0))) return kMiss;
-  const Num t = nearest - std::sqrt(room / squared);
-  if (!(t >= Num(0))) return kMiss;
-  return {Outcome::Hit, t, normalized_or(o + t * d, {0, 1, 0})};
+  const Num back = std::sqrt(room / squared);
+  if (!(nearest >= back)) return kMiss;
+  return {Outcome::Hit, nearest - back, normalized_or(at_nearest - back * d, {0, 1, 0})};
 }
 
 Hit cast_capsule(const Ray& ray, Num half_length, Num radius) {

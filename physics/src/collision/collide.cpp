@@ -59,6 +59,11 @@ NumRotation unit_rotation(Rotation q) {
   return normalized(NumRotation{q.x, q.y, q.z, q.w});
 }
 
+// One sum finds any number that is not finite; finite single coordinates cannot overflow it.
+bool is_placed(NumVec p, NumRotation a, NumRotation b) {
+  return std::isfinite(p.x + p.y + p.z + a.x + a.y + a.z + a.w + b.x + b.y + b.z + b.w);
+}
+
 }  // namespace
 
 bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
@@ -73,11 +78,11 @@ bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape&
       kRoutines[static_cast<int>(first.type)][static_cast<int>(second.type)];
   if (routine == nullptr) return false;
 
-  const NumVec origin = to_num(x_first.p);
+  const NumVec origin = to_num(x_first.p), offset = to_num(x_second.p) - origin;
+  const NumRotation q_first = unit_rotation(x_first.q), q_second = unit_rotation(x_second.q);
+  if (!is_placed(offset, q_first, q_second)) return false;
   Contacts contacts;
-  routine({first, {0, 0, 0}, unit_rotation(x_first.q)},
-          {second, to_num(x_second.p) - origin, unit_rotation(x_second.q)},
-          static_cast<Num>(margin), contacts);
+  routine({first, {0, 0, 0}, q_first}, {second, offset, q_second}, static_cast<Num>(margin), contacts);
   if (contacts.count == 0) return false;
 
   // Turning a normal into world axes leaves it a few roundings away from unit length.

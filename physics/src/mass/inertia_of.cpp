@@ -103,12 +103,13 @@ MassProperties cone(double mass, double radius, double height) {
 
 MassProperties capsule(double mass, double radius, double half_length) {
   // A cylinder and two half balls, masses as their volumes (over pi r^2).
-  const double r2 = radius * radius, cylinder_share = 2 * half_length, balls_share = 4.0 / 3 * radius;
+  const double r2 = radius * radius, cylinder_share = 2 * half_length,
+               balls_share = 4.0 / 3 * radius;
   const double m_cylinder = mass * cylinder_share / (cylinder_share + balls_share);
   const double m_balls = mass * balls_share / (cylinder_share + balls_share);
   const double axis = m_cylinder * r2 / 2 + m_balls * 2 / 5 * r2;
-  // A half ball has 83/320 m r^2 across about its own centre, which lies 3/8 r beyond its flat side:
-  // 83/320 r^2 + (L + 3/8 r)^2 = 2/5 r^2 + L^2 + 3/4 r L.
+  // A half ball has 83/320 m r^2 across about its own centre, which lies 3/8 r beyond its flat
+  // side: 83/320 r^2 + (L + 3/8 r)^2 = 2/5 r^2 + L^2 + 3/4 r L.
   const double across =
       m_cylinder * (r2 / 4 + half_length * half_length / 3) +
       m_balls * (2.0 / 5 * r2 + half_length * half_length + 3.0 / 4 * radius * half_length);

@@ -1,12 +1,13 @@
 // Mass properties of a collision shape filled with a uniform density.
 //
-// A polyhedron is the signed sum of the tetrahedra between a point of reference and the triangles of
-// its faces. Of the tetrahedron (o, a, b, c), with 6 V = a . (b x c):
+// A polyhedron is the signed sum of the tetrahedra between a point of reference and the triangles
+// of its faces. Of the tetrahedron (o, a, b, c), with 6 V = a . (b x c):
 //   integral dV       = V
 //   integral r dV     = V/4 (a + b + c)
 //   integral r r^T dV = V/20 (a a^T + b b^T + c c^T + s s^T),  s = a + b + c
-// exact for every closed surface and any o [Lien 1984], [Mirtich 1996]. o is first a vertex, then the
-// centre found with it, so that no digits are lost however far from its own origin the hull lies.
+// exact for every closed surface and any o [Lien 1984], [Mirtich 1996]. o is first a vertex, then
+// the centre found with it, so that no digits are lost however far from its own origin the hull
+// lies.
 #include <cmath>
 #include <numbers>
 
@@ -18,9 +19,9 @@ namespace plumb::inline PLUMB_ABI {
 namespace {
 
 struct Moments {
-  double volume = 0;                                   // [m^3]
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();     // [m^4] integral r dV from the reference
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();    // [m^5] integral r r^T dV from the reference
+  double volume = 0;                                 // [m^3]
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // [m^4] integral r dV from the reference
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // [m^5] integral r r^T dV from the reference
 };
 
 Moments moments_about(const HullGeometry& hull, const Eigen::Vector3d& reference) {
@@ -52,8 +53,8 @@ MassProperties of_hull(const HullGeometry& hull, double density) {
   MassProperties body;
   body.mass = density * fine.volume;
   body.center = near_center + rest;
-  body.I_Bcm_B = density * detail::inertia_from_second_moments(
-                               fine.second - fine.volume * rest * rest.transpose());
+  body.I_Bcm_B = density * detail::inertia_from_second_moments(fine.second - fine.volume * rest *
+                                                                                 rest.transpose());
   return body;
 }
 

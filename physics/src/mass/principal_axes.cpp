@@ -57,7 +57,8 @@ MassProperties::Principal MassProperties::principal() const {
     turned = false;
     for (int p = 0; p < 2; ++p) {
       for (int q = p + 1; q < 3; ++q) {
-        const double negligible = kEpsilon * std::sqrt(std::abs(A(p, p))) * std::sqrt(std::abs(A(q, q)));
+        const double negligible =
+            kEpsilon * std::sqrt(std::abs(A(p, p))) * std::sqrt(std::abs(A(q, q)));
         if (!(std::abs(A(p, q)) > negligible)) continue;
         turn(A, V, p, q);
         turned = true;

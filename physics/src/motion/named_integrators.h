@@ -13,7 +13,8 @@ template <class T>
 Quaternion<T> turned_first_order(Quaternion<T> R, Vector3<T> w, T h) {
   const Quaternion<T> rate = Quaternion<T>{w.x, w.y, w.z, T(0)} * R;
   const T s = T(0.5) * h;
-  return normalized(Quaternion<T>{R.x + s * rate.x, R.y + s * rate.y, R.z + s * rate.z, R.w + s * rate.w});
+  return normalized(
+      Quaternion<T>{R.x + s * rate.x, R.y + s * rate.y, R.z + s * rate.z, R.w + s * rate.w});
 }
 
 // The game-physics books: w stays as it is (no w x I w), first-order quaternion [Millington 2010].
@@ -38,9 +39,10 @@ void advance_implicit_gyro(Quaternion<T>& R_WP, Vector3<T>& w_W, Vector3<T> mome
   const Vector3<T> c1{h * w.z * (I.z - I.y), I.y, h * w.x * (I.y - I.x)};
   const Vector3<T> c2{h * w.y * (I.z - I.y), h * w.x * (I.x - I.z), I.z};
   const T determinant = dot(c0, cross(c1, c2));
-  if (determinant != T(0)) {  // zero only for a body that cannot turn about some axis
+  if (determinant != T(0)) {         // zero only for a body that cannot turn about some axis
     const T s = T(1) / determinant;  // Cramer's rule
-    const Vector3<T> dw{s * dot(f, cross(c1, c2)), s * dot(c0, cross(f, c2)), s * dot(c0, cross(c1, f))};
+    const Vector3<T> dw{s * dot(f, cross(c1, c2)), s * dot(c0, cross(f, c2)),
+                        s * dot(c0, cross(c1, f))};
     w_W = rotate(R_WP, w - dw);
   }
   R_WP = turned_first_order(R_WP, w_W, h);

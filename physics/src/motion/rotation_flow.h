@@ -4,15 +4,15 @@
 // axes, which no part of the flow touches. J = 1/I are the inverse principal moments; J_i = 0 is an
 // axis about which the body cannot turn (infinite inertia), as good a value as any other here.
 //
-// With l = |L|, n = R^T L / l (the direction of L seen from the body) and g = h l J, in units of the
-// step h:                     turn rate = g * n (entry by entry),   n' = n x (g * n)          [Euler]
+// With l = |L|, n = R^T L / l (the direction of L seen from the body) and g = h l J, in units of
+// the step h:                     turn rate = g * n (entry by entry),   n' = n x (g * n) [Euler]
 // Three cases (classify_inertia):
 //
 // Isotropic   The turn rate is L J in world axes, constant: R1 = exp(h J L) R0.
 //
 // Symmetric   J_a = J_b = J_t about the axis c: turn rate = J_t m + (J_c - J_t) m_c e_c with m_c
-//             constant, so R1 = exp(h J_t L) R0 exp(h (J_c - J_t) m_c e_c): precession in space, spin
-//             in the body, exact at any h [Goldstein 2002, 5.6].
+//             constant, so R1 = exp(h J_t L) R0 exp(h (J_c - J_t) m_c e_c): precession in space,
+//             spin in the body, exact at any h [Goldstein 2002, 5.6].
 //
 // Asymmetric  1. n by its power series: the equation is quadratic, so its coefficients follow from
 //                products of the earlier ones [Moore 1966], with b = (g3 - g2, g1 - g3, g2 - g1):
@@ -22,9 +22,9 @@
 //                     R1 = R0 Rot(n0, phi) Shortest(n1 -> n0).
 //                Differentiating, with the spin of the shortest rotation about n0 written out,
 //                     phi' = c - (c n0.n - n0.(g * n)) / (1 + n0.n),   c = n . (g * n) = 2 E h / l.
-//                c is constant. The fraction is the rate at which the arc n(t) and its chord enclose
-//                solid angle, the geometric phase [Montgomery 1991]; it starts as t^2. Its series
-//                comes from one division of series.
+//                c is constant. The fraction is the rate at which the arc n(t) and its chord
+//                enclose solid angle, the geometric phase [Montgomery 1991]; it starts as t^2. Its
+//                series comes from one division of series.
 //
 // Where the series is good. n moves no faster, and the nearest complex singularity of its time lies
 // no nearer, than set by the tumble rate s,  s^2 = |b2 b3| n1^2 + |b3 b1| n2^2 + |b1 b2| n3^2:
@@ -33,9 +33,9 @@
 // stays below a limit; fast spin about L alone costs nothing. No case is left out: near-symmetric
 // bodies, the separatrix, steady spins and rest are ordinary values.
 //
-// Splittings into rotations about body axes [McLachlan 1993], [Celledoni 2008] cost the same and have
-// an order of convergence to watch. The closed form in elliptic functions [van Zon 2007] costs more and
-// loses digits near the separatrix.
+// Splittings into rotations about body axes [McLachlan 1993], [Celledoni 2008] cost the same and
+// have an order of convergence to watch. The closed form in elliptic functions [van Zon 2007] costs
+// more and loses digits near the separatrix.
 #pragma once
 
 #include "math/quaternion.h"
@@ -60,8 +60,8 @@ constexpr RotationKind classify_inertia(Vector3<T> moments) {
 //   order 4    2e-8   2e-7     7e-6     5e-5     2e-4     7e-4     2e-2
 //   order 8           1e-12    5e-10    2e-8     3e-7     2e-6     1e-3
 //   order 16                   < 1e-16  2e-15    3e-13    1e-11    2e-6
-// |w| h is no substitute for s h: it is larger without need for bodies close to a ball (s <= 0.91 |w|
-// was the largest found for real bodies), and too small by any factor where axes are locked.
+// |w| h is no substitute for s h: it is larger without need for bodies close to a ball (s <= 0.91
+// |w| was the largest found for real bodies), and too small by any factor where axes are locked.
 template <class T>
 struct SeriesChoice;
 template <>
@@ -88,7 +88,8 @@ constexpr T tumble_squared(Vector3<T> n, Vector3<T> g) {
 }
 
 // The turn of the body over one step, in its axes at the start: R1 = normalized(R0 * result). Not a
-// unit quaternion. Free of branches, so that T may be a vector of numbers with a sin_cos of its own.
+// unit quaternion. Free of branches, so that T may be a vector of numbers with a sin_cos of its
+// own.
 //   n0  direction of L in principal axes, unit (or zero: no turn)
 //   g   h |L| J [rad], with tumble_squared(n0, g) below the square of the order's limit
 template <int Order, class T>
@@ -194,9 +195,15 @@ void advance_asymmetric(Quaternion<T>& R_WP, Vector3<T> L_W, Vector3<T> J, T h) 
 template <class T>
 void advance_rotation(Quaternion<T>& R_WP, Vector3<T> L_W, Vector3<T> inverse_moments, T h) {
   switch (classify_inertia(inverse_moments)) {
-    case RotationKind::Isotropic: advance_isotropic(R_WP, L_W, inverse_moments.x, h); return;
-    case RotationKind::Symmetric: advance_symmetric(R_WP, L_W, inverse_moments, h); return;
-    case RotationKind::Asymmetric: advance_asymmetric(R_WP, L_W, inverse_moments, h); return;
+    case RotationKind::Isotropic:
+      advance_isotropic(R_WP, L_W, inverse_moments.x, h);
+      return;
+    case RotationKind::Symmetric:
+      advance_symmetric(R_WP, L_W, inverse_moments, h);
+      return;
+    case RotationKind::Asymmetric:
+      advance_asymmetric(R_WP, L_W, inverse_moments, h);
+      return;
   }
 }
 

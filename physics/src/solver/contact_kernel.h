@@ -6,19 +6,33 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-// Velocities of the two bodies of a row while it is being solved.
+// Velocities of the two bodies of a row while it is being solved, and the arms at which it acts.
 template <class T>
 struct RowVelocities {
   Vector3<T> va, wa, vb, wb;
+  Vector3<T> arm_a, arm_b;
 };
+
+// The arms now. Two dynamic bodies act on each other at one common point, half-way between where each
+// has carried its own: only so do they keep their angular momentum, whatever they slid meanwhile.
+template <class T>
+inline void place_arms(const ContactRow<T>& row, const BodyDelta& da, const BodyDelta& db, RowVelocities<T>& u) {
+  const Vector3<T> half = (row.both_dynamic ? T(0.5) : T(0)) * (db.dp - da.dp - row.advance);
+  u.arm_a = row.arm_a + half;
+  u.arm_b = row.arm_b - half;
+}
 
 // Applies the wrench (force impulse P at c, torque impulse M) to B and its opposite to A.
 template <class T>
 inline void apply_wrench(const ContactRow<T>& row, Vector3<T> P, Vector3<T> M, RowVelocities<T>& u) {
   u.va -= multiply_each(row.inverse_mass_a, P);
-  u.wa -= row.inverse_inertia_a * (cross(row.arm_a, P) + M);
+  u.wa -= row.inverse_inertia_a * (cross(u.arm_a, P) + M);
   u.vb += multiply_each(row.inverse_mass_b, P);
-  u.wb += row.inverse_inertia_b * (cross(row.arm_b, P) + M);
+  u.wb += row.inverse_inertia_b * (cross(u.arm_b, P) + M);
+}
+template <class T>
+inline Vector3<T> relative_velocity(const RowVelocities<T>& u) {
+  return u.vb + cross(u.wb, u.arm_b) - u.va - cross(u.wa, u.arm_a);
 }
 
 // The wrench of the row's present impulses, normal and friction.
@@ -64,38 +78,88 @@ inline SeparationChange<T> separation_change(const ContactRow<T>& row, const Bod
           tilt(db.dq, row.t1) - tilt(da.dq, row.t1), tilt(db.dq, row.t2) - tilt(da.dq, row.t2)};
 }
 
-// One pass of sequential impulses over the normal rows. With `use_bias` overlap is worked off softly;
-// without, the velocities are only made not to approach (the relaxing pass) [Catto 2024].
+// All points at once, when every one of them presses: the impulses nearest to the present ones that
+// give every point its wanted velocity. Sequential impulses depend on the order of the points, which
+// tips a symmetric stack; this does not. Returns false, having changed nothing, when a point would pull.
+template <class T>
+inline bool solve_block(ContactRow<T>& row, const T* wanted, T mass_scale, T impulse_scale, T& p0, T& p1, T& p2) {
+  T total[ContactRow<T>::kMaxPoints] = {};
+  int k = 0;
+  T change[ContactRow<T>::kMaxPoints] = {};
+  for (int i = 0; i < row.count; ++i) {
+    for (int j = i; j < row.count; ++j) {
+      const T m = row.block[k + j - i];
+      change[i] += m * wanted[j];
+      if (j != i) change[j] += m * wanted[i];
+    }
+    k += ContactRow<T>::kMaxPoints - i;
+  }
+  for (int i = 0; i < row.count; ++i) {
+    total[i] = row.points[i].impulse + mass_scale * change[i] - impulse_scale * row.points[i].impulse;
+    if (total[i] < T(0)) return false;
+  }
+  for (int i = 0; i < row.count; ++i) {
+    const T l = total[i] - row.points[i].impulse;
+    row.points[i].impulse = total[i];
+    p0 += l;
+    p1 += row.points[i].b * l;
+    p2 -= row.points[i].a * l;
+  }
+  return true;
+}
+
+// Sweeps of sequential impulses over the points where they cannot be solved at once [-].
+inline constexpr int kPointSweeps = 2;
+
+// One pass over the normal rows. With `use_bias` overlap is worked off softly; without, the velocities
+// are only made not to approach (the relaxing pass) [Catto 2024].
 template <class T>
 inline void solve_normal(ContactRow<T>& row, const SeparationChange<T>& change, T inverse_h,
                          bool use_bias, RowVelocities<T>& u) {
-  T u0 = dot(row.n, u.vb + cross(u.wb, row.arm_b) - u.va - cross(u.wa, row.arm_a));
+  T u0 = dot(row.n, relative_velocity(u));
   const Vector3<T> w = u.wb - u.wa;
   T u1 = dot(row.t1, w), u2 = dot(row.t2, w);
   T p0 = T(0), p1 = T(0), p2 = T(0);
+  T bias[ContactRow<T>::kMaxPoints] = {};
+  T mass_scale[ContactRow<T>::kMaxPoints] = {}, impulse_scale[ContactRow<T>::kMaxPoints] = {};
+  T wanted[ContactRow<T>::kMaxPoints] = {};
+  bool all_overlap = true;
   for (int i = 0; i < row.count; ++i) {
-    auto& point = row.points[i];
+    const auto& point = row.points[i];
     const T s = point.separation + change.D0 + point.a * change.E1 + point.b * change.E2;
-    T bias = T(0), mass_scale = T(1), impulse_scale = T(0);
+    mass_scale[i] = T(1);
     if (s > T(0)) {
-      bias = s * inverse_h;  // may close the gap, not more
+      bias[i] = s * inverse_h;  // may close the gap, not more
+      all_overlap = false;
     } else if (use_bias) {
-      bias = std::max(row.bias_rate * s, -row.push_speed_now);
-      mass_scale = row.mass_scale;
-      impulse_scale = row.impulse_scale;
+      bias[i] = std::max(row.bias_rate * s, -row.push_speed_now);
+      mass_scale[i] = row.mass_scale;
+      impulse_scale[i] = row.impulse_scale;
     }
-    const T vn = u0 + point.b * u1 - point.a * u2;
-    const T wanted = -point.normal_mass * mass_scale * (vn + bias) - impulse_scale * point.impulse;
-    const T total = std::max(point.impulse + wanted, T(0));
-    const T l = total - point.impulse;
-    point.impulse = total;
-    const T l1 = point.b * l, l2 = -point.a * l;
-    p0 += l;
-    p1 += l1;
-    p2 += l2;
-    u0 += row.K_normal.xx * l + row.K_normal.xy * l1 + row.K_normal.xz * l2;
-    u1 += row.K_normal.xy * l + row.K_normal.yy * l1 + row.K_normal.yz * l2;
-    u2 += row.K_normal.xz * l + row.K_normal.yz * l1 + row.K_normal.zz * l2;
+    wanted[i] = -(u0 + point.b * u1 - point.a * u2 + bias[i]);
+  }
+  if (row.has_block && all_overlap && solve_block(row, wanted, mass_scale[0], impulse_scale[0], p0, p1, p2)) {
+    apply_wrench(row, p0 * row.n, p1 * row.t1 + p2 * row.t2, u);
+    return;
+  }
+  // A soft row is a compromise between its target and its impulse: one sweep of it, more of the others.
+  const int sweeps = use_bias || row.count == 1 ? 1 : kPointSweeps;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int i = 0; i < row.count; ++i) {
+      auto& point = row.points[i];
+      const T vn = u0 + point.b * u1 - point.a * u2;
+      const T step = -point.normal_mass * mass_scale[i] * (vn + bias[i]) - impulse_scale[i] * point.impulse;
+      const T total = std::max(point.impulse + step, T(0));
+      const T l = total - point.impulse;
+      point.impulse = total;
+      const T l1 = point.b * l, l2 = -point.a * l;
+      p0 += l;
+      p1 += l1;
+      p2 += l2;
+      u0 += row.K_normal.xx * l + row.K_normal.xy * l1 + row.K_normal.xz * l2;
+      u1 += row.K_normal.xy * l + row.K_normal.yy * l1 + row.K_normal.yz * l2;
+      u2 += row.K_normal.xz * l + row.K_normal.yz * l1 + row.K_normal.zz * l2;
+    }
   }
   apply_wrench(row, p0 * row.n, p1 * row.t1 + p2 * row.t2, u);
 }
@@ -107,7 +171,7 @@ inline void solve_normal(ContactRow<T>& row, const SeparationChange<T>& change, 
 // Returns the normal impulse that slides in `sliding`, and all of it in `load`.
 template <class T>
 inline void solve_friction(ContactRow<T>& row, RowVelocities<T>& u, T& load, T& sliding) {
-  const Vector3<T> v = u.vb + cross(u.wb, row.arm_b) - u.va - cross(u.wa, row.arm_a);
+  const Vector3<T> v = relative_velocity(u);
   T x = dot(row.t1, v), y = dot(row.t2, v), z = dot(row.n, u.wb - u.wa);
   T p0 = T(0), p1 = T(0), p2 = T(0);
   load = T(0);

@@ -61,11 +61,17 @@ struct ContactRow {
 
   Vector3<T> n, t1, t2;          // n from A to B
   Vector3<T> arm_a, arm_b;       // [m] from the centres of mass to c
+  Vector3<T> between;            // [m] from A's centre of mass to B's
+  Vector3<T> advance;            // [m] of B seen from A at which the arms were taken (swept pairs)
+  bool both_dynamic = false;     // then the arms follow the bodies to one common point
   // The part of the arms that turns with the bodies: a sphere's surface does not, it rolls.
   Vector3<T> core_a, core_b;     // [m]
   Vector3<T> inverse_mass_a, inverse_mass_b;  // [1/kg] by world axis (locks make them differ)
   Symmetric3<T> inverse_inertia_a, inverse_inertia_b;
   Symmetric3<T> K_normal, K_friction;
+  // Pseudo-inverse of the points' response matrix (upper triangle by rows): all points at once.
+  T block[10] = {};
+  bool has_block = false;
   T friction = T(0), restitution = T(0);
   T bias_rate = T(0), mass_scale = T(1), impulse_scale = T(0);
   T push_speed = T(0);           // [m/s] limit of the velocity that works off overlap
@@ -84,6 +90,7 @@ struct ContactRow {
 
   bool exact_spheres = false;    // both are spheres about their centres of mass
   T radius_a = T(0), radius_b = T(0);  // [m] then
+  T surface_a = T(0), surface_b = T(0);  // [m] radius of the rounded shapes, from core to surface
   T approach_speed = T(0);       // [m/s] when the step began, largest over the points
   T cut_unit = T(0);             // [m/s] |relative acceleration| h: unit of the bounce cuts
   unsigned loaded = 0;           // bit i: point i carried load in the last substep

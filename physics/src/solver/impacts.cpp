@@ -74,7 +74,7 @@ Meeting spheres_meet(const Impacts& impacts, const ContactRow<Real>& row, Real t
   const Real h = world.h, r = row.radius_a + row.radius_b;
   const Vec a = impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a);
   const Vec v_start = bodies.velocity[row.body_b].v - bodies.velocity[row.body_a].v;
-  const Vec p_start = row.arm_a - row.arm_b + world.delta[row.body_b].dp - world.delta[row.body_a].dp;
+  const Vec p_start = row.between + world.delta[row.body_b].dp - world.delta[row.body_a].dp;
   const Vec p = p_start + t0 * (v_start + (Real(0.5) * t0) * a);
   const Vec v = v_start + t0 * a;
   Meeting meeting;
@@ -108,7 +108,7 @@ PointMotion point_motion(const WorldState& world, const ContactRow<Real>& row, i
   const BodyVelocity& va = world.bodies.velocity[row.body_a];
   const BodyVelocity& vb = world.bodies.velocity[row.body_b];
   const Vec place = point.a * row.t1 + point.b * row.t2;
-  const Vec v = vb.v + cross(vb.w, row.arm_b + place) - va.v - cross(va.w, row.arm_a + place);
+  const Vec v = vb.v + cross(vb.w, row.core_b + place) - va.v - cross(va.w, row.core_a + place);
   return {point.separation + change.D0 + point.a * change.E1 + point.b * change.E2, dot(row.n, v)};
 }
 
@@ -143,20 +143,70 @@ Meeting find_meeting(const Impacts& impacts, const ContactRow<Real>& row) {
   return meeting;
 }
 
-// Changes a body's trajectory by an impulse at time t: the velocity jumps, the path stays continuous.
-void deflect(Impacts& impacts, std::uint32_t body, Vec dv, Vec dw, Vec dL, Real t) {
+// One side of a bounce at its time t: where the body is and how it yields.
+struct Side {
+  Rotation q;                        // principal axes to world
+  Vec L, v, w;                       // [kg m^2/s], [m/s], [rad/s]
+  Symmetric3<Real> inverse_inertia;
+  Vec inverse_mass;
+  Vec core;                          // [m] arm that has turned with the body
+  Vec place_axis1, place_axis2;      // the contact plane's axes as this body has carried them
+  Vec surface;                       // [m] from the core to the surface, along the normal
+};
+
+Side side_at(const WorldState& world, const ContactRow<Real>& row, bool is_a, Vec normal, Real t) {
+  const std::uint32_t body = is_a ? row.body_a : row.body_b;
+  const BodyMass& m = world.bodies.mass[body];
+  const BodyVelocity& velocity = world.bodies.velocity[body];
+  const Rotation start = world.bodies.pose[body].q;
+  Side s{world.delta[body].dq * start, world.bodies.momentum[body].L, velocity.v, velocity.w, {}, {}, {}, {}, {}, {}};
+  if (world.substep[body].constrained) {
+    turn_freely(RotationMethod::Exact, m, s.q, s.L, t);
+    s.v += t * world.substep[body].acceleration;
+    s.w = angular_velocity_of(m, s.q, s.L);
+    s.inverse_inertia = world_inverse_inertia(m, s.q);
+    s.inverse_mass = m.inverse_mass;
+  }
+  const Rotation turned = s.q * conjugate(start);
+  s.core = rotate(turned, is_a ? row.core_a : row.core_b);
+  s.place_axis1 = rotate(turned, row.t1);
+  s.place_axis2 = rotate(turned, row.t2);
+  if (row.exact_spheres) s.core = {0, 0, 0};
+  s.surface = is_a ? row.surface_a * normal : -row.surface_b * normal;
+  return s;
+}
+
+// Gives a body its state after a bounce at time t: the velocity jumps, the path stays continuous. The
+// rotation is carried to t and back by the exact flow, so that turning loses no energy either.
+void deflect(Impacts& impacts, std::uint32_t body, const Side& after, Vec dv, Real t) {
   WorldState& world = impacts.world;
   SubstepBody& s = world.substep[body];
   if (!s.constrained) return;
   world.bodies.velocity[body].v += dv;
-  world.bodies.velocity[body].w += dw;
-  world.bodies.momentum[body].L += dL;
   world.delta[body].dp -= t * dv;
-  if (length_squared(dw) > Real(0))
-    world.delta[body].dq = normalized(from_rotation_vector(-t * dw) * world.delta[body].dq);
+  Rotation q = after.q;
+  Vec L = after.L;
+  turn_freely(RotationMethod::Exact, world.bodies.mass[body], q, L, -t);
+  world.bodies.momentum[body].L = L;
+  world.delta[body].dq = normalized(q * conjugate(world.bodies.pose[body].q));
+  world.bodies.velocity[body].w = angular_velocity_of(world.bodies.mass[body], q, L);
   s.bounced = true;
   impacts.local_time[body] = t;
   impacts.stale[body] = 1;
+}
+
+void note_bounce(WorldState& world, const ContactRow<Real>& row, Vec normal, PosVec point, Real approach, Real impulse) {
+  const Pair& pair = world.pairs[row.pair];
+  HitEvent hit;
+  hit.a = world.colliders.id(pair.collider_a());
+  hit.b = world.colliders.id(pair.collider_b());
+  hit.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
+  hit.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
+  hit.point = to_public_position(point);
+  hit.normal = to_public(normal);
+  hit.approach_speed = approach;
+  hit.impulse = impulse;
+  world.gathering.hits.push_back(hit);
 }
 
 // Newton's restitution at all points that meet now, together: sequential impulses until every
@@ -164,118 +214,105 @@ void deflect(Impacts& impacts, std::uint32_t body, Vec dv, Vec dw, Vec dL, Real 
 void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
   WorldState& world = impacts.world;
   const Real t = meeting.time;
-  const Vec a_rel = impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a);
-  ContactRow<Real> now = row;  // the row with the geometry of the moment of impact
-  if (row.exact_spheres) {
-    now.n = meeting.normal;
-    tangent_frame(now.n, now.t1, now.t2);
-    now.arm_a = row.radius_a * now.n;
-    now.arm_b = -row.radius_b * now.n;
-    now.points[0].a = now.points[0].b = Real(0);
-  }
+  const Vec n = meeting.normal;
+  Vec t1, t2;
+  tangent_frame(n, t1, t2);
+  Side A = side_at(world, row, true, n, t), B = side_at(world, row, false, n, t);
+  const Vec va_before = A.v, vb_before = B.v;
+
+  struct Point {
+    Vec ra, rb;
+    Real wanted, k_n, l_n, l_1, l_2;
+    int index;
+  };
+  Point points[ContactRow<Real>::kMaxPoints];
+  int count = 0;
+  const auto relative = [&](const Point& p) { return B.v + cross(B.w, p.rb) - A.v - cross(A.w, p.ra); };
+  const auto response = [&](Vec d1, Vec d2, const Point& p) {
+    return dot(d1, multiply_each(A.inverse_mass, d2) + multiply_each(B.inverse_mass, d2)) +
+           dot(cross(p.ra, d1), A.inverse_inertia * cross(p.ra, d2)) +
+           dot(cross(p.rb, d1), B.inverse_inertia * cross(p.rb, d2));
+  };
   const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
-  const Real a_n = dot(now.n, a_rel);
-  bool meets[ContactRow<Real>::kMaxPoints]{};
+  const Real a_n = dot(n, impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a));
+  Real approach = 0;
   for (int i = 0; i < row.count; ++i) {
     const PointMotion motion = point_motion(world, row, i, change);
     const Real gap = motion.s + t * (motion.v + Real(0.5) * a_n * t);
-    meets[i] = row.exact_spheres ||
-               gap <= kSimultaneous * world.h * std::abs(motion.v + a_n * t);
-  }
-
-  RowVelocities<Real> u{world.bodies.velocity[row.body_a].v, world.bodies.velocity[row.body_a].w,
-                        world.bodies.velocity[row.body_b].v, world.bodies.velocity[row.body_b].w};
-  const RowVelocities<Real> before = u;
-  Real wanted[ContactRow<Real>::kMaxPoints]{}, l_n[ContactRow<Real>::kMaxPoints]{},
-      l_1[ContactRow<Real>::kMaxPoints]{}, l_2[ContactRow<Real>::kMaxPoints]{};
-  const auto arms = [&](int i, Vec& ra, Vec& rb) {
-    const Vec place = now.points[i].a * now.t1 + now.points[i].b * now.t2;
-    ra = now.arm_a + place;
-    rb = now.arm_b + place;
-  };
-  const auto relative = [&](Vec ra, Vec rb) {
-    return u.vb + cross(u.wb, rb) - u.va - cross(u.wa, ra) + t * a_rel;
-  };
-  Real approach = 0;
-  for (int i = 0; i < row.count; ++i) {
-    if (!meets[i]) continue;
-    Vec ra, rb;
-    arms(i, ra, rb);
-    const Real vn = dot(now.n, relative(ra, rb));
-    wanted[i] = -row.restitution * std::min(vn, Real(0));
+    if (!row.exact_spheres && gap > kSimultaneous * world.h * std::abs(motion.v + a_n * t)) continue;
+    const auto arm = [&](const Side& side) {
+      return side.core + row.points[i].a * side.place_axis1 + row.points[i].b * side.place_axis2 + side.surface;
+    };
+    Point& p = points[count++];
+    p = {arm(A), arm(B), 0, 0, 0, 0, 0, i};
+    if (row.both_dynamic && !row.exact_spheres) {  // one common point keeps the angular momentum
+      const Vec apart = row.between + world.delta[row.body_b].dp - world.delta[row.body_a].dp +
+                        t * (B.v - A.v) - (Real(0.5) * t * t) * (impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a)) +
+                        p.rb - p.ra;
+      p.ra += Real(0.5) * apart;
+      p.rb -= Real(0.5) * apart;
+    }
+    const Real vn = dot(n, relative(p));
+    p.wanted = -row.restitution * std::min(vn, Real(0));
+    p.k_n = response(n, n, p);
     approach = std::max(approach, -vn);
   }
-  // Angular momentum received, summed as r x P so that it is exactly opposite on both bodies.
-  Vec P{0, 0, 0}, torque_a{0, 0, 0}, torque_b{0, 0, 0};
-  const auto push = [&](Vec impulse, Vec ra, Vec rb) {
-    u.va -= multiply_each(now.inverse_mass_a, impulse);
-    u.wa -= now.inverse_inertia_a * cross(ra, impulse);
-    u.vb += multiply_each(now.inverse_mass_b, impulse);
-    u.wb += now.inverse_inertia_b * cross(rb, impulse);
-    P += impulse;
-    torque_a += cross(ra, impulse);
-    torque_b += cross(rb, impulse);
-  };
-  const auto response = [&](Vec d1, Vec d2, Vec ra, Vec rb) {
-    return dot(d1, multiply_each(now.inverse_mass_a, d2) + multiply_each(now.inverse_mass_b, d2)) +
-           dot(cross(ra, d1), now.inverse_inertia_a * cross(ra, d2)) +
-           dot(cross(rb, d1), now.inverse_inertia_b * cross(rb, d2));
+  const auto push = [&](Vec impulse, const Point& p) {
+    A.v -= multiply_each(A.inverse_mass, impulse);
+    B.v += multiply_each(B.inverse_mass, impulse);
+    const Vec on_a = cross(p.ra, impulse), on_b = cross(p.rb, impulse);
+    A.w -= A.inverse_inertia * on_a;
+    B.w += B.inverse_inertia * on_b;
+    A.L -= on_a;
+    B.L += on_b;
   };
   for (int sweep = 0; sweep < kBounceSweeps; ++sweep) {
-    Real largest = 0, change_of = 0;
-    for (int i = 0; i < row.count; ++i) {
-      if (!meets[i]) continue;
-      Vec ra, rb;
-      arms(i, ra, rb);
-      const Real k_n = response(now.n, now.n, ra, rb);
-      const Real total = std::max(l_n[i] + (wanted[i] - dot(now.n, relative(ra, rb))) / k_n, Real(0));
-      const Real d_n = total - l_n[i];
-      l_n[i] = total;
-      push(d_n * now.n, ra, rb);
-      change_of = std::max(change_of, std::abs(d_n));
+    Real largest = 0, largest_change = 0;
+    for (int i = 0; i < count; ++i) {
+      Point& p = points[i];
+      const Real total = std::max(p.l_n + (p.wanted - dot(n, relative(p))) / p.k_n, Real(0));
+      const Real d_n = total - p.l_n;
+      p.l_n = total;
+      push(d_n * n, p);
+      largest_change = std::max(largest_change, std::abs(d_n));
       largest = std::max(largest, total);
       if (!(row.friction > Real(0))) continue;
-      const Vec v = relative(ra, rb);
-      const Real k11 = response(now.t1, now.t1, ra, rb), k12 = response(now.t1, now.t2, ra, rb),
-                 k22 = response(now.t2, now.t2, ra, rb);
+      const Vec v = relative(p);
+      const Real k11 = response(t1, t1, p), k12 = response(t1, t2, p), k22 = response(t2, t2, p);
       const Real determinant = k11 * k22 - k12 * k12;
       if (!(determinant > Real(0))) continue;
-      const Real v1 = dot(now.t1, v), v2 = dot(now.t2, v);
-      Real f1 = l_1[i] - (k22 * v1 - k12 * v2) / determinant;
-      Real f2 = l_2[i] - (k11 * v2 - k12 * v1) / determinant;
-      const Real limit = row.friction * l_n[i], size = std::sqrt(f1 * f1 + f2 * f2);
+      const Real v1 = dot(t1, v), v2 = dot(t2, v);
+      Real f1 = p.l_1 - (k22 * v1 - k12 * v2) / determinant;
+      Real f2 = p.l_2 - (k11 * v2 - k12 * v1) / determinant;
+      const Real limit = row.friction * p.l_n, size = std::sqrt(f1 * f1 + f2 * f2);
       if (size > limit) {
         f1 *= limit / size;
         f2 *= limit / size;
       }
-      push((f1 - l_1[i]) * now.t1 + (f2 - l_2[i]) * now.t2, ra, rb);
-      l_1[i] = f1;
-      l_2[i] = f2;
+      push((f1 - p.l_1) * t1 + (f2 - p.l_2) * t2, p);
+      p.l_1 = f1;
+      p.l_2 = f2;
     }
-    if (change_of <= std::numeric_limits<Real>::epsilon() * largest) break;
+    if (largest_change <= std::numeric_limits<Real>::epsilon() * largest) break;
   }
-  deflect(impacts, row.body_a, u.va - before.va, u.wa - before.wa, -torque_a, t);
-  deflect(impacts, row.body_b, u.vb - before.vb, u.wb - before.wb, torque_b, t);
+  Real impulse = 0;
+  Vec middle{0, 0, 0};
+  for (int i = 0; i < count; ++i) {
+    const Point& p = points[i];
+    impulse += p.l_n;
+    middle += (Real(1) / static_cast<Real>(count)) * (row.body_a != 0 ? p.ra : p.rb);
+    row.points[p.index].impulse_sum += p.l_n;
+    row.points[p.index].friction1_sum += p.l_1;
+    row.points[p.index].friction2_sum += p.l_2;
+  }
+  const std::uint32_t seen_from = row.body_a != 0 ? row.body_a : row.body_b;
+  const Vec moved = world.delta[seen_from].dp +
+                    t * (world.bodies.velocity[seen_from].v + (Real(0.5) * t) * impacts.acceleration(seen_from));
+  note_bounce(world, row, n, world.bodies.pose[seen_from].x + cast<PosReal>(moved + middle), approach, impulse);
+  deflect(impacts, row.body_a, A, A.v - va_before, t);
+  deflect(impacts, row.body_b, B, B.v - vb_before, t);
   ++row.bounces;
   ++world.report.impacts;
-  for (int i = 0; i < row.count; ++i) {
-    row.points[i].impulse_sum += l_n[i];
-    row.points[i].friction1_sum += l_1[i];
-    row.points[i].friction2_sum += l_2[i];
-  }
-  const Pair& pair = world.pairs[row.pair];
-  HitEvent hit;
-  hit.a = world.colliders.id(pair.collider_a());
-  hit.b = world.colliders.id(pair.collider_b());
-  hit.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
-  hit.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
-  const std::uint32_t dense_a = world.bodies.info[pair.body_a].dense;
-  hit.point = to_public_position(world.bodies.pose[dense_a].x +
-                                 cast<PosReal>(now.arm_a + world.delta[row.body_a].dp));
-  hit.normal = to_public(now.n);
-  hit.approach_speed = approach;
-  hit.impulse = length(P);
-  world.gathering.hits.push_back(hit);
 }
 
 // After the bounces: which rows does the contact solver leave alone in this substep?
@@ -286,17 +323,18 @@ void share_with_contact_solver(Impacts& impacts) {
     const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
     const Real a = dot(row.n, impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a));
     const Real h = world.h;
-    Real closing_now = -kNever, closing_at_end = -kNever;
+    Real closing_now = -kNever, closing_at_end = -kNever, gap_at_end = kNever;
     for (int i = 0; i < row.count; ++i) {
       const PointMotion motion = point_motion(world, row, i, change);
       closing_now = std::max(closing_now, -motion.v);
       closing_at_end = std::max(closing_at_end, -(motion.v + a * h));
+      gap_at_end = std::min(gap_at_end, motion.s + h * (motion.v + Real(0.5) * a * h));
     }
     const bool left_by_bounce = row.bounces > 0 && closing_now < Real(0);
-    // Too fast to be stopped: it bounces in this substep or in a later one. (The contact solver ends a
-    // substep at v h + a h^2, half an a h^2 too deep, and would stop it just before it touches.)
-    const bool will_bounce = !row.at_rest && closing_at_end > impacts.cut(row) + row.cut_unit &&
-                             row.bounces < tolerance::kMaxBouncesPerSubstep;
+    // Not yet there, or too fast to be stopped: it bounces in a later substep. (The contact solver ends
+    // a substep at v h + a h^2, half an a h^2 too deep, and would stop it just before it touches.)
+    const bool will_bounce = !row.at_rest && row.bounces < tolerance::kMaxBouncesPerSubstep &&
+                             (gap_at_end > Real(0) || closing_at_end > impacts.cut(row) + row.cut_unit);
     row.skip = left_by_bounce || will_bounce;
     if (row.skip) {
       row.at_rest = false;

@@ -32,7 +32,6 @@ namespace {
 
 struct RowContext {
   const WorldState& world;
-  Softness soft, stiff;  // between dynamic bodies; against static or kinematic ones
 };
 
 // x^T M y
@@ -59,7 +58,7 @@ void add_response(ContactRow<Real>& row, Vec arm, Vec inverse_mass,
   row.K_friction.zz += bilinear(I, row.n, row.n);
 }
 
-void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, bool warm) {
+void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, Real warm) {
   for (int i = 0; i < row.count; ++i) {
     auto& point = row.points[i];
     const ManifoldPoint& from = pair.manifold.points[i];
@@ -76,12 +75,59 @@ void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, bool warm)
     point.k11 = F.xx - Real(2) * b * F.xz + b * b * F.zz;
     point.k12 = F.xy + a * F.xz - b * F.yz - a * b * F.zz;
     point.k22 = F.yy + Real(2) * a * F.yz + a * a * F.zz;
-    if (warm) {
-      point.impulse = pair.normal_impulse[i];
-      point.friction1 = dot(row.t1, pair.friction_impulse[i]);
-      point.friction2 = dot(row.t2, pair.friction_impulse[i]);
-    }
+    point.impulse = warm * pair.normal_impulse[i];
+    point.friction1 = warm * dot(row.t1, pair.friction_impulse[i]);
+    point.friction2 = warm * dot(row.t2, pair.friction_impulse[i]);
   }
+}
+
+// Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points lie
+// nearly on a line, or a locked axis leaves nothing to solve for.
+constexpr Real kSolvable = Real(1e-5);
+
+bool invert(const Symmetric3<Real>& m, Symmetric3<Real>& out) {
+  const Real cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz, cxz = m.xy * m.yz - m.xz * m.yy;
+  const Real determinant = m.xx * cxx + m.xy * cxy + m.xz * cxz;
+  if (!(determinant > kSolvable * m.xx * m.yy * m.zz)) return false;
+  const Real d = Real(1) / determinant;
+  out = {d * cxx, d * (m.xx * m.zz - m.xz * m.xz), d * (m.xx * m.yy - m.xy * m.xy),
+         d * cxy, d * cxz, d * (m.xy * m.xz - m.xx * m.yz)};
+  return true;
+}
+
+// The response of the points to their impulses is A = G K G^T with the rows (1, b_i, -a_i) of G. Its
+// pseudo-inverse is H K^-1 H^T, H = G (G^T G)^-1; for two points A itself is inverted.
+void make_block(ContactRow<Real>& row) {
+  constexpr int kStride[4] = {0, 4, 7, 9};  // where each row of the upper triangle begins
+  if (row.count == 2) {
+    const auto row_of = [&](int i) { return Vec{Real(1), row.points[i].b, -row.points[i].a}; };
+    const Vec g0 = row_of(0), g1 = row_of(1);
+    const Real a00 = dot(g0, row.K_normal * g0), a01 = dot(g0, row.K_normal * g1), a11 = dot(g1, row.K_normal * g1);
+    const Real determinant = a00 * a11 - a01 * a01;
+    if (!(determinant > kSolvable * a00 * a11)) return;
+    row.block[0] = a11 / determinant;
+    row.block[1] = -a01 / determinant;
+    row.block[kStride[1]] = a00 / determinant;
+    row.has_block = true;
+    return;
+  }
+  if (row.count < 3) return;
+  Symmetric3<Real> gram{}, gram_inverse{}, K_inverse{};
+  for (int i = 0; i < row.count; ++i) {
+    const Real a = row.points[i].a, b = row.points[i].b;
+    gram.xx += Real(1);
+    gram.yy += b * b;
+    gram.zz += a * a;
+    gram.xy += b;
+    gram.xz -= a;
+    gram.yz -= a * b;
+  }
+  if (!invert(gram, gram_inverse) || !invert(row.K_normal, K_inverse)) return;
+  Vec h[4];
+  for (int i = 0; i < row.count; ++i) h[i] = gram_inverse * Vec{Real(1), row.points[i].b, -row.points[i].a};
+  for (int i = 0; i < row.count; ++i)
+    for (int j = i; j < row.count; ++j) row.block[kStride[i] + j - i] = dot(h[i], K_inverse * h[j]);
+  row.has_block = true;
 }
 
 void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t pair_index) {
@@ -102,13 +148,26 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
   for (int i = 0; i < row.count; ++i) center += pair.manifold.points[i].position;
   center = (Real(1) / static_cast<Real>(row.count)) * center;
   const Vec from_a_to_b = cast<Real>(bodies.pose[row.body_b].x - bodies.pose[row.body_a].x);
-  row.arm_a = pair.relative_to_b ? center + from_a_to_b : center;
-  row.arm_b = pair.relative_to_b ? center : center - from_a_to_b;
-  row.core_a = row.arm_a - world.colliders.info[pair.collider_a()].shape.radius * row.n;
-  row.core_b = row.arm_b + world.colliders.info[pair.collider_b()].shape.radius * row.n;
-
+  row.between = from_a_to_b;
+  row.advance = pair.advance;
+  row.arm_a = pair.relative_to_b ? center + (from_a_to_b + pair.advance) : center;
+  row.arm_b = pair.relative_to_b ? center : center - (from_a_to_b + pair.advance);
   const bool a_moves = bodies.mass[row.body_a].mass > Real(0);
   const bool b_moves = bodies.mass[row.body_b].mass > Real(0);
+  row.both_dynamic = a_moves && b_moves;
+  Real gap = 0;  // between the surfaces, when the manifold was made
+  for (int i = 0; i < row.count; ++i) gap += pair.manifold.points[i].separation - pair.advanced_gap;
+  const Vec half_gap = (Real(0.5) * gap / static_cast<Real>(row.count)) * row.n;
+  row.surface_a = world.colliders.info[pair.collider_a()].shape.radius;
+  row.surface_b = world.colliders.info[pair.collider_b()].shape.radius;
+  row.core_a = row.arm_a - half_gap - row.surface_a * row.n;
+  row.core_b = row.arm_b + half_gap + row.surface_b * row.n;
+  if (!row.both_dynamic) {
+    // Against what does not yield a body acts with its own surface, wherever the other one's is.
+    row.arm_a -= half_gap;
+    row.arm_b += half_gap;
+  }
+
   if (a_moves) {
     row.inverse_mass_a = bodies.mass[row.body_a].inverse_mass;
     row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
@@ -119,15 +178,24 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
     row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     add_response(row, row.arm_b, row.inverse_mass_b, row.inverse_inertia_b);
   }
-  make_points(row, pair, center, world.settings.warm_starting);
+  // The remembered impulses belong to a substep of the last length; forces are what persists.
+  const Real warm = world.settings.warm_starting && world.last_h > Real(0) ? world.h / world.last_h : Real(0);
+  make_points(row, pair, center, warm);
+  make_block(row);
 
   row.friction = pair.friction;
   row.restitution = pair.restitution;
-  const Softness& softness = a_moves && b_moves ? context.soft : context.stiff;
+  // A contact sinks by g/w^2: to sink the same fraction of every size, small bodies need a higher
+  // frequency.
+  const Real thickness = pair.slop / tolerance::kSlopFraction;
+  const Real frequency = world.settings.contact_frequency / std::sqrt(thickness) *
+                         (row.both_dynamic ? Real(1) : tolerance::kStaticStiffness);
+  const Softness softness =
+      make_softness(std::min(frequency, tolerance::kStiffestContact / world.h), world.settings.contact_damping_ratio, world.h);
   row.bias_rate = softness.bias_rate;
   row.mass_scale = softness.mass_scale;
   row.impulse_scale = softness.impulse_scale;
-  row.push_speed = tolerance::kPushRate * (pair.slop / tolerance::kSlopFraction);
+  row.push_speed = tolerance::kPushRate * thickness;
   row.push_speed_now = row.push_speed;
   row.at_rest = pair.at_rest;
 
@@ -161,11 +229,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
 
 void build_rows(WorldState& world) {
   const std::uint32_t count = static_cast<std::uint32_t>(world.row_order.size());
-  const Real frequency = std::min(world.settings.contact_frequency, Real(0.25) / world.h);
-  const RowContext context{
-      world, make_softness(frequency, world.settings.contact_damping_ratio, world.h),
-      make_softness(tolerance::kStaticStiffness * frequency, world.settings.contact_damping_ratio,
-                    world.h)};
+  const RowContext context{world};
   BodyStore& bodies = world.bodies;
   world.delta.resize(bodies.dense_count());
   world.substep.resize(bodies.dense_count());

@@ -45,7 +45,9 @@ void for_rows_by_color(WorldState& world, Task&& task) {
 RowVelocities<Real> read_velocities(const WorldState& world, const ContactRow<Real>& row) {
   const BodyVelocity& a = world.bodies.velocity[row.body_a];
   const BodyVelocity& b = world.bodies.velocity[row.body_b];
-  return {a.v, a.w, b.v, b.w};
+  RowVelocities<Real> u{a.v, a.w, b.v, b.w, {}, {}};
+  place_arms(row, world.delta[row.body_a], world.delta[row.body_b], u);
+  return u;
 }
 // Bodies that are not dynamic may stand in many rows of a colour; they are never written.
 void write_velocities(WorldState& world, const ContactRow<Real>& row, const RowVelocities<Real>& u) {
@@ -151,16 +153,22 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
     solve_normal(row, change, inverse_h, false, u);
     solve_friction(row, u, load, sliding);
     write_velocities(world, row, u);
-    if (world.substep[row.body_a].constrained) {
-      world.substep[row.body_a].load += load;
-      world.substep[row.body_a].sliding_load += sliding;
-    }
-    if (world.substep[row.body_b].constrained) {
-      world.substep[row.body_b].load += load;
-      world.substep[row.body_b].sliding_load += sliding;
+    for (const std::uint32_t body : {row.body_a, row.body_b}) {
+      SubstepBody& s = world.substep[body];
+      if (!s.constrained) continue;
+      s.load += load;
+      s.sliding_load += sliding;
     }
     row.at_rest = load > Real(0);
+    // Between two dynamic bodies the shift of the trapezoid would not keep their angular momentum.
+    if (row.both_dynamic && load > Real(0)) {
+      world.substep[row.body_a].contacts_changed = true;
+      world.substep[row.body_b].contacts_changed = true;
+    }
   }
+}
+
+void close_substep(WorldState& world, ContactRow<Real>& row) {
   for (int i = 0; i < row.count; ++i) {
     row.points[i].impulse_sum += row.points[i].impulse;
     row.points[i].friction1_sum += row.points[i].friction1;
@@ -226,6 +234,7 @@ void fly(WorldState& world, std::uint32_t i) {
 
 void run_substeps(WorldState& world) {
   const Real inverse_h = Real(1) / world.h;
+  const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (!world.bouncing_rows.empty()) run_impacts(world);
@@ -246,10 +255,13 @@ void run_substeps(WorldState& world) {
       write_velocities(world, row, u);
     });
     for_awake_bodies(world, [&](std::uint32_t i) { drift(world, i); });
-    for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
+    for (int pass = 0; pass < relax_passes; ++pass)
+      for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
+    for_rows_by_color(world, [&](ContactRow<Real>& row) { close_substep(world, row); });
     for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
   }
   store_impulses(world);
+  world.last_h = world.h;
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

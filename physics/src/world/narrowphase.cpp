@@ -68,6 +68,48 @@ Real reach_of(const WorldState& world, const Pair& pair) {
   return world.dt * (speed + world.dt * g);
 }
 
+// Fast pairs: conservative advancement along the relative path of the step (without rotation) to the
+// first touch [Mirtich 1996], and the manifold there. Returns false when the pair is slow, or when
+// nothing meets; the ordinary manifold serves then.
+bool collide_swept(const WorldState& world, Pair& pair, const ColliderInfo& a, const Transform& xa,
+                   const ColliderInfo& b, const Transform& xb, Real margin) {
+  const BodyInfo& info_a = world.bodies.info[pair.body_a];
+  const BodyInfo& info_b = world.bodies.info[pair.body_b];
+  const Vec v = world.bodies.velocity[info_b.dense].v - world.bodies.velocity[info_a.dense].v;
+  const Real thickness = pair.slop / tolerance::kSlopFraction;
+  const Vec path = world.dt * v;
+  if (length(path) <= tolerance::kSweptFraction * thickness) return false;
+  Transform moved = xb;
+  Real t = 0;
+  Vec normal{0, 1, 0};
+  bool meets = false;
+  for (int i = 0; i < tolerance::kSweepSteps; ++i) {
+    const Proximity near = closest_points(a.shape, xa, b.shape, moved);
+    if (near.distance <= tolerance::kSweepTolerance * pair.slop) {
+      meets = i > 0;  // overlapping from the start: the ordinary manifold knows more
+      normal = near.normal;
+      break;
+    }
+    const Real closing = -dot(near.normal, path);  // [m] per whole step
+    if (!(closing > Real(0))) return false;
+    t += near.distance / closing;
+    if (t > Real(1)) return false;
+    moved.p = xb.p + t * path;
+  }
+  if (!meets || !(dot(normal, path) < Real(0))) return false;
+  Manifold manifold;
+  if (!collide(a.shape, xa, b.shape, moved, margin, manifold)) return false;
+  pair.manifold = manifold;
+  pair.advance = t * path;
+  pair.advanced_gap = -dot(manifold.normal, pair.advance);
+  for (int i = 0; i < manifold.count; ++i) {
+    ManifoldPoint& point = pair.manifold.points[i];
+    point.separation += pair.advanced_gap;
+    if (pair.relative_to_b) point.position -= pair.advance;
+  }
+  return true;
+}
+
 void collide_pair(WorldState& world, std::size_t index) {
   Pair& pair = world.pairs[index];
   const ColliderInfo& a = world.colliders.info[pair.collider_a()];
@@ -86,7 +128,10 @@ void collide_pair(WorldState& world, std::size_t index) {
   const Real margin = pair.sensor ? Real(0) : tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
   const Manifold old = pair.manifold;
   pair.manifold.count = 0;
-  collide(a.shape, xa, b.shape, xb, margin, pair.manifold);
+  pair.advance = {0, 0, 0};
+  pair.advanced_gap = 0;
+  if (pair.sensor || !collide_swept(world, pair, a, xa, b, xb, margin))
+    collide(a.shape, xa, b.shape, xb, margin, pair.manifold);
   if (!pair.sensor) carry_impulses(pair, old, pair.slop / tolerance::kSlopFraction);
   for (int i = 0; i < Manifold::kMaxPoints; ++i) {
     pair.step_normal_impulse[i] = 0;
@@ -132,6 +177,7 @@ void collide_pairs(WorldState& world) {
     list_all();
     collide_range(world, all);
   }
+  world.deep_overlap = false;
   std::size_t index = 0;
   world.pairs.remove_if([&](const Pair& pair) {
     const bool gone = world.pair_gone[index++] != 0;
@@ -157,9 +203,12 @@ void collide_pairs(WorldState& world) {
     world.touching.push_back(i);
     ++world.report.touching_pairs;
     world.report.contact_points += static_cast<std::uint32_t>(pair.manifold.count);
-    for (int k = 0; k < pair.manifold.count; ++k)
-      world.report.largest_penetration =
-          std::max(world.report.largest_penetration, -static_cast<double>(pair.manifold.points[k].separation));
+    if (length_squared(pair.advance) > Real(0)) ++world.report.continuous;
+    for (int k = 0; k < pair.manifold.count; ++k) {
+      const Real depth = -pair.manifold.points[k].separation;
+      world.report.largest_penetration = std::max(world.report.largest_penetration, static_cast<double>(depth));
+      world.deep_overlap = world.deep_overlap || depth > tolerance::kDeepSlops * pair.slop;
+    }
   }
 }
 

@@ -19,6 +19,10 @@ struct Pair {
   bool was_touching = false;        // after the previous step
   bool at_rest = false;             // the contact solver, not a bounce, carried it in the last substep
   bool relative_to_b = false;       // else to A
+  // A swept pair's manifold is that of the moment of first touch: B is then this much farther along,
+  // seen from A [m], and the separations are those of the step's start again.
+  Vec advance{0, 0, 0};
+  Real advanced_gap = 0;            // [m] what that added to the separations
   Manifold manifold;                // positions from that body's centre of mass, world axes
   Real normal_impulse[Manifold::kMaxPoints]{};   // [N s] of the last substep: the warm start
   Vec friction_impulse[Manifold::kMaxPoints]{};  // [N s] on B, world axes

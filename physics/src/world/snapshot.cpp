@@ -108,7 +108,7 @@ void visit_world(Table& t, WorldState& world) {
   t("switches", s.warm_starting, s.sleeping, s.profiling);
   t("time_to_sleep", s.time_to_sleep);
   t("time", world.time);
-  t("dt", world.dt, world.proxy_dt);
+  t("dt", world.dt, world.proxy_dt, world.last_h);
   t("steps", world.step_count);
 }
 
@@ -173,6 +173,7 @@ void visit_pair(Table& t, Pair& p, std::uint32_t& island) {
   t("surface", p.friction, p.restitution, p.slop);
   Manifold& m = p.manifold;
   t("normal", m.normal.x, m.normal.y, m.normal.z);
+  t("advance", p.advance.x, p.advance.y, p.advance.z, p.advanced_gap);
   t("points", m.count);
   static constexpr const char* kNames[4][5] = {
       {"place0", "feature0", "impulse0", "friction0", "step0"},
@@ -356,12 +357,16 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
   }
   std::vector<std::uint32_t> order;  // of creation, per body
   if (!read_list(in, "collider_order.slot", order, world.colliders.info.size())) return false;
+  std::vector<bool> listed(world.colliders.info.size(), false);
   for (const std::uint32_t slot : order) {
-    if (!world.colliders.info[slot].alive) return false;
+    if (!world.colliders.info[slot].alive || listed[slot]) return false;
+    listed[slot] = true;
     BodyInfo& owner = world.bodies.info[world.colliders.info[slot].body];
     owner.colliders.push_back(slot);
     owner.collider_ids.push_back(world.colliders.id(slot));
   }
+  for (std::size_t slot = 0; slot < listed.size(); ++slot)
+    if (world.colliders.info[slot].alive && !listed[slot]) return false;
   for (std::uint32_t body = 0; body < world.bodies.info.size(); ++body)
     if (world.bodies.info[body].alive) update_collider_frames(world, body);
   return read_list(in, "collider_free.slot", world.colliders.free_slots, world.colliders.info.size()) &&
@@ -402,7 +407,6 @@ bool restore_islands(const Snapshot& in, WorldState& world) {
     world.islands[info.island].used = true;
     world.islands[info.island].bodies.push_back(slot);
   }
-  std::vector<std::uint32_t> used;
   if (!read_list(in, "island_free.index", world.free_islands, world.bodies.info.size() + 1)) return false;
   const std::size_t needed = world.free_islands.empty() ? 0
       : static_cast<std::size_t>(*std::max_element(world.free_islands.begin(), world.free_islands.end())) + 1;

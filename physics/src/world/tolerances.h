@@ -21,13 +21,23 @@ inline constexpr Real kFatBoxFraction = Real(0.1);
 // every few steps only.
 inline constexpr Real kFatBoxSteps = Real(2);
 
-// Overlap is worked off no faster than this many thicknesses a second [1/s]. 3: a 1 m box leaves the
-// ground at 3 m/s at most, however deep it was born in it.
-inline constexpr Real kPushRate = Real(3);
+// Overlap is worked off no faster than this many thicknesses a second [1/s]. 2: a 1 m box leaves the
+// ground at 2 m/s at most, however deep it was born in it.
+inline constexpr Real kPushRate = Real(2);
 
 // Contacts with static or kinematic bodies are this much stiffer than those between dynamic ones [-]
 // so that the ground yields last. [Catto 2024]
 inline constexpr Real kStaticStiffness = Real(2);
+
+// No contact is given a frequency above this many times the substep rate [-]. Far above 1/4, where a
+// spring would be unstable, because the damping is far above critical: at 4 a contact works off half
+// its overlap in a substep.
+inline constexpr Real kStiffestContact = Real(4);
+
+// In steps that begin with overlap above this many slops [-] the velocities are relaxed more often, so
+// that what pushes bodies apart does not throw them.
+inline constexpr Real kDeepSlops = Real(10);
+inline constexpr int kDeepRelaxPasses = 6;
 
 // An approach slower than this many g h (h: substep) does not bounce [-]. A pair at rest gains g h a
 // substep, so that anything below is noise; a pair that was at rest needs more, because an
@@ -39,6 +49,14 @@ inline constexpr Real kBounceCutResting = Real(8);
 inline constexpr int kMaxBouncesPerSubstep = 16;
 // Passes over the bouncing pairs of one substep [-]; a row of n touching balls needs about n.
 inline constexpr int kMaxImpactPasses = 64;
+
+// A pair that moves more than this fraction of the smaller thickness in a step is swept [-]: its
+// manifold is taken where the surfaces first meet, so that nothing thin is passed unseen.
+inline constexpr Real kSweptFraction = Real(0.25);
+// Advances of a sweep [-]; each at least halves what a sphere's sweep still misses.
+inline constexpr int kSweepSteps = 32;
+// Surfaces this near count as met [-], as a fraction of the slop.
+inline constexpr Real kSweepTolerance = Real(0.5);
 
 // A body counts as being at rest below this fraction of sqrt(g d) [-], d its size: the speed it would
 // have after falling 1e-4 d. 0.014 sqrt(9.81 * 1) = 4.4 cm/s for a 1 m body.

@@ -133,7 +133,9 @@ Created<ColliderId> PhysicsWorld::create_collider(BodyId body, const Collider& c
   owner.colliders.push_back(slot);
   owner.collider_ids.push_back(world.colliders.id(slot));
   detail::count_collider(world, collider, 1);
-  if (owner.type == MotionType::Dynamic && owner.island != detail::kNone) detail::wake_body(world, body.index);
+  // A body that was made asleep sleeps on while it is being built; one that lies on something wakes.
+  if (owner.island != detail::kNone && (!world.islands[owner.island].pairs.empty() || world.islands[owner.island].bodies.size() > 1))
+    detail::wake_body(world, body.index);
   if (owner.has_own_mass || collider.is_sensor || collider.density == 0) {
     detail::update_collider_frames(world, body.index);
   } else {

@@ -76,6 +76,8 @@ struct WorldState {
   // --- scratch of the running step (kept between steps for its storage) ---
   StepFlags flags;
   Real dt = 0, h = 0;   // [s] step, substep
+  Real last_h = 0;      // [s] substep to which the remembered impulses belong
+  bool deep_overlap = false;  // some contact of this step begins far inside
   Real proxy_dt = 0;    // [s] step for which the boxes reach ahead
   std::vector<std::uint32_t> touching;      // indices into pairs
   std::vector<std::uint32_t> row_order;     // touching pairs by colour

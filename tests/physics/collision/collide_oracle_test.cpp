@@ -79,7 +79,7 @@ struct Bounds {
 Bounds bounds_for(const Scene& s, bool apart) {
   const double thickness = std::min(half_thickness(s.a), half_thickness(s.b));
   // Rounding of the result: positions are as far out as `sum`, hull planes as large as their hull.
-  const double rounding = 8 * kEpsilon * (reach(s.a) + reach(s.b));
+  const double rounding = 16 * kEpsilon * (reach(s.a) + reach(s.b));
   const bool polyhedron = s.a.radius == 0 || s.b.radius == 0;
   Bounds bounds{rounding, rounding, rounding};
   if (polyhedron && !(s.a.type == ShapeType::Sphere || s.b.type == ShapeType::Sphere)) {

@@ -127,11 +127,13 @@ TEST(Friction, C3_SticksAboveAndSlidesBelowTheTangent) {
     slope.friction = critical * 0.999;
     PhysicsWorld below(no_sleep());
     const OnSlope sliding = make(below);
+    run(below, 1);  // the contact takes up its load
+    const double v0 = velocity(below, sliding.body).dot(sliding.down);
     run(below, 5);
+    const double v = velocity(below, sliding.body).dot(sliding.down);
     const double a = kGravity * (std::sin(angle) - slope.friction * std::cos(angle));
-    EXPECT_NEAR(velocity(below, sliding.body).dot(sliding.down), 5 * a, bar(1e-6, 1e-4) * kGravity * 5)
-        << (block ? "block" : "point");
-    EXPECT_GT(velocity(below, sliding.body).dot(sliding.down), 2.5 * a);
+    EXPECT_NEAR(v - v0, 5 * a, bar(1e-6, 1e-4) * kGravity * 5) << (block ? "block" : "point");
+    EXPECT_GT(v, 2.5 * a) << (block ? "block" : "point");
   }
 }
 

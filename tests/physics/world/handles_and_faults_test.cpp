@@ -65,7 +65,9 @@ TEST(Handles, DestroyTheGround) {
   run(world, 3);
   must(world.destroy_body(stack.ground));
   run(world, 1);
-  for (BodyId b : stack.bodies) EXPECT_NEAR(velocity(world, b).y(), -kGravity, 0.01);
+  // The load kept between the boxes goes in the passes of one step; what is left of it is less than
+  // the speed that gravity adds in one substep.
+  for (BodyId b : stack.bodies) EXPECT_NEAR(velocity(world, b).y(), -kGravity, kGravity * kDt / 4);
 }
 
 TEST(Handles, DestroyAColliderDuringContact) {
@@ -128,8 +130,8 @@ TEST(Quarantine, ANonFiniteBodyIsPutAsideAndReported) {
   const double huge = static_cast<double>(std::numeric_limits<Real>::max()) / 2;
   int reported = 0;
   for (int i = 0; i < 60; ++i) {
+    // The body weighs half a gram: the force is finite, its acceleration is not.
     if (i == 10) must(world.apply_force(doomed, vec(huge, huge, 0)));
-    if (i == 11) must(world.apply_force(doomed, vec(huge, huge, 0)));
     const StepReport& report = world.step(kDt);
     twin.step(kDt);
     reported += static_cast<int>(report.quarantined);

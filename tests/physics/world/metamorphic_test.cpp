@@ -116,7 +116,10 @@ TEST(Metamorphic, RotationAboutGravity) {
   }
 }
 
-// All shapes here are their own mirror images. w and the rotation axis are axial vectors.
+// All shapes here are their own mirror images. w and the rotation axis are axial vectors. A mirror
+// image has its contact points in another order, and points of a face are solved one after the other:
+// what one pass leaves unsolved differs (3.6e-3 m for the tumbling box; kSame would need convergence).
+const double kOtherPointOrder = 1e-2;  // [m]
 TEST(Metamorphic, MirrorImage) {
   const Vector3d flip(-1, 1, 1);
   const Positions mirrored = simulate([&](Item item) {
@@ -129,7 +132,7 @@ TEST(Metamorphic, MirrorImage) {
   });
   Positions expected = plain();
   for (Vector3d& p : expected) p = p.cwiseProduct(flip);
-  expect_same(mirrored, expected, kSame, "mirrored");
+  expect_same(mirrored, expected, kOtherPointOrder, "mirrored");
 }
 
 TEST(Metamorphic, OrderOfCreation) {

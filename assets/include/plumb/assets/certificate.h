@@ -88,7 +88,8 @@ struct MeshCertificate {
   bool crossing_count_complete = true;      // false: there are more pairs than counted
   std::vector<std::array<std::uint32_t, 2>> crossing_examples;  // up to 8 pairs of triangle numbers
   // How often the surface winds around the points just outside and inside its faces; a solid has
-  // 0 and 1. Sampled at the middle of the faces; only of closed oriented meshes.
+  // 0 and 1. One face of each component speaks for all of it where none touch; faces that touch are
+  // sampled one by one. Only of closed oriented meshes.
   int winding_min = 0;
   int winding_max = 0;
   std::size_t winding_samples = 0;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include "plumb/math.h"
 
 #include "plumb/assets/mesh.h"
 #include "plumb/assets/result.h"

@@ -25,6 +25,8 @@ struct ImportOptions {
   Axis world_up = Axis::Y;
   std::uint64_t max_file_bytes = std::uint64_t{2} << 30;
   std::size_t max_triangles = 20'000'000;
+  // What the reading process of import_mesh_guarded may take [byte]; a small file can ask for any amount.
+  std::uint64_t max_memory_bytes = std::uint64_t{4} << 30;
 };
 
 enum class Origin { File, Format, Option, Unknown };  // where a unit or an axis was learnt
@@ -55,8 +57,8 @@ struct Imported {
 // use import_mesh_guarded.
 Result<Imported> import_mesh(const std::string& path, const ImportOptions& options = {});
 
-// In a child process with a time limit [s] > 0, so that a crash or a hang inside a reader is an
-// error like any other. Forks: call it from tools, not from a game with threads. Where the system
+// In a child process with a time limit [s] > 0, so that a crash, a hang or a
+// flood of memory inside a reader is an error like any other. Forks: call it from tools, not from a game with threads. Where the system
 // has no fork it fails and says so.
 Result<Imported> import_mesh_guarded(const std::string& path, const ImportOptions& options = {},
                                      double time_limit = 60);

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include <Eigen/Core>
+#include "plumb/math.h"
 
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/mesh.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include "plumb/math.h"
 
 #include "plumb/precision.h"
 

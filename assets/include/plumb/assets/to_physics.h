@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include <Eigen/Core>
+#include "plumb/math.h"
 
 #include "plumb/assets/hull.h"
 #include "plumb/assets/mass.h"

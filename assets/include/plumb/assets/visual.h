@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
+#include "plumb/math.h"
 
 #include "plumb/assets/hull.h"
 #include "plumb/assets/mesh.h"

@@ -28,10 +28,10 @@ namespace replay {
 using rrd::Outcome;
 
 struct RecorderOptions {
-  std::string path;                     // overwritten if it exists
+  std::string path = {};                // overwritten if it exists
   std::string application_id = "plumb";  // recordings with the same one share the viewer's layout
-  std::string name;                     // shown by the viewer; empty: the path
-  std::string scene;                    // the scene as its file's text (JSON); kept as it is
+  std::string name = {};                // shown by the viewer; empty: the path
+  std::string scene = {};               // the scene as its file's text (JSON); kept as it is
 
   int snapshot_every = 60;              // [steps] >= 1 between exact snapshots
   int rows_per_chunk = 30;              // [steps] >= 1 kept back and written as one piece
