@@ -20,8 +20,8 @@ using V = Eigen::Vector3d;
 // A convex core (point, segment or polyhedron) in place, grown by a radius.
 struct Solid {
   std::vector<V> vertices;
-  std::vector<std::vector<int>> faces;        // counter-clockwise from outside
-  std::vector<V> normals;                     // of the faces
+  std::vector<std::vector<int>> faces;  // counter-clockwise from outside
+  std::vector<V> normals;               // of the faces
   std::vector<std::pair<int, int>> edges;
   double radius = 0;
 };
@@ -57,7 +57,9 @@ inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transfo
   const Eigen::Matrix3d R = rotation_of(x).toRotationMatrix();
   const V p = vec(x.p), h = vec(shape.half);
   switch (shape.type) {
-    case detail::ShapeType::Sphere: s.vertices = {p}; break;
+    case detail::ShapeType::Sphere:
+      s.vertices = {p};
+      break;
     case detail::ShapeType::Capsule:
       s.vertices = {p - R * h, p + R * h};
       s.edges = {{0, 1}};
@@ -68,8 +70,12 @@ inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transfo
                        (i & 4) != 0 ? h.z() : -h.z());
         s.vertices.push_back(p + R * corner);
       }
-      for (const auto& loop : {std::vector<int>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3},
-                               {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+      for (const auto& loop : {std::vector<int>{0, 4, 6, 2},
+                               {1, 3, 7, 5},
+                               {0, 1, 5, 4},
+                               {2, 6, 7, 3},
+                               {0, 2, 3, 1},
+                               {4, 5, 7, 6}}) {
         add_face(s, loop);
       }
       break;
@@ -80,7 +86,8 @@ inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transfo
         add_face(s, std::vector<int>(loop.begin(), loop.end()));
       }
       break;
-    case detail::ShapeType::HalfSpace: break;
+    case detail::ShapeType::HalfSpace:
+      break;
   }
   return s;
 }
@@ -95,7 +102,8 @@ inline double room_along(const Solid& a, const Solid& b, const V& n) {
 
 inline double point_segment(const V& p, const V& a, const V& b) {
   const V d = b - a;
-  const double t = d.squaredNorm() > 0 ? std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+  const double t =
+      d.squaredNorm() > 0 ? std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
   return (a + t * d - p).norm();
 }
 inline double segment_segment(const V& a0, const V& a1, const V& b0, const V& b1) {
@@ -105,7 +113,8 @@ inline double segment_segment(const V& a0, const V& a1, const V& b0, const V& b1
   const V da = a1 - a0, db = b1 - b0, c = da.cross(db), r = b0 - a0;
   if (c.squaredNorm() > 0) {
     const double s = r.cross(db).dot(c) / c.squaredNorm(), t = r.cross(da).dot(c) / c.squaredNorm();
-    if (s >= 0 && s <= 1 && t >= 0 && t <= 1) best = std::min(best, (a0 + s * da - b0 - t * db).norm());
+    if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
+      best = std::min(best, (a0 + s * da - b0 - t * db).norm());
   }
   return best;
 }
@@ -132,8 +141,10 @@ inline double best_facet_room(const Solid& a, const Solid& b) {
   for (const V& n : b.normals) consider(n);
   for (const auto& [a0, a1] : a.edges) {
     for (const auto& [b0, b1] : b.edges) {
-      const V da = a.vertices[static_cast<std::size_t>(a1)] - a.vertices[static_cast<std::size_t>(a0)];
-      const V db = b.vertices[static_cast<std::size_t>(b1)] - b.vertices[static_cast<std::size_t>(b0)];
+      const V da =
+          a.vertices[static_cast<std::size_t>(a1)] - a.vertices[static_cast<std::size_t>(a0)];
+      const V db =
+          b.vertices[static_cast<std::size_t>(b1)] - b.vertices[static_cast<std::size_t>(b0)];
       const V c = da.cross(db);
       if (c.norm() > 1e-9 * da.norm() * db.norm()) consider(c.normalized());
     }
@@ -151,7 +162,9 @@ inline double feature_distance(const Solid& a, const Solid& b) {
   for (const V& p : b.vertices) {
     for (std::size_t k = 0; k < a.faces.size(); ++k) best = std::min(best, point_face(p, a, k));
   }
-  const auto at = [](const Solid& s, int i) -> const V& { return s.vertices[static_cast<std::size_t>(i)]; };
+  const auto at = [](const Solid& s, int i) -> const V& {
+    return s.vertices[static_cast<std::size_t>(i)];
+  };
   for (const auto& [a0, a1] : a.edges) {
     for (const V& q : b.vertices) best = std::min(best, point_segment(q, at(a, a0), at(a, a1)));
     for (const auto& [b0, b1] : b.edges) {
@@ -164,7 +177,8 @@ inline double feature_distance(const Solid& a, const Solid& b) {
   return best;
 }
 
-// Distance of the surfaces, or minus the depth of overlap: the least translation that parts the shapes.
+// Distance of the surfaces, or minus the depth of overlap: the least translation that parts the
+// shapes.
 inline double signed_distance(const Solid& a, const Solid& b) {
   const double radii = a.radius + b.radius;
   if (a.faces.empty() && b.faces.empty()) return feature_distance(a, b) - radii;
@@ -254,8 +268,9 @@ inline std::shared_ptr<const HullGeometry> prism(int sides, double radius, doubl
   for (int level = 0; level < 2; ++level) {
     for (int i = 0; i < sides; ++i) {
       const double a = 2 * pi * i / sides;
-      points.push_back(V(radius * std::cos(a), level == 0 ? -half_height : half_height, radius * std::sin(a))
-                           .cast<Real>());
+      points.push_back(
+          V(radius * std::cos(a), level == 0 ? -half_height : half_height, radius * std::sin(a))
+              .cast<Real>());
     }
   }
   sizes.push_back(n);

@@ -11,7 +11,8 @@ struct ClippedEnd {
 };
 
 // The part of the axis between the sides of the face, seen along the normal.
-bool clip_axis(const FacePolygon& face, const Segment& axis, NumVec normal, Num band, ClippedEnd (&ends)[2]) {
+bool clip_axis(const FacePolygon& face, const Segment& axis, NumVec normal, Num band,
+               ClippedEnd (&ends)[2]) {
   ends[0] = {Num(0), face.name};
   ends[1] = {Num(1), face.name};
   for (int i = 0; i < face.count; ++i) {
@@ -31,8 +32,8 @@ bool clip_axis(const FacePolygon& face, const Segment& axis, NumVec normal, Num 
   return ends[0].at < ends[1].at;
 }
 
-// How far the surface lies from a point of the axis along the normal. A tilted cylinder is thicker than
-// its radius; near the lower end, `along` [m] away, its place is taken by the cap.
+// How far the surface lies from a point of the axis along the normal. A tilted cylinder is thicker
+// than its radius; near the lower end, `along` [m] away, its place is taken by the cap.
 Num depth_below_axis(Num radius, Num sine, Num along) {
   const Num cosine = std::sqrt(Num(1) - sine * sine);
   if (along * cosine >= radius * sine) return radius / cosine;
@@ -43,7 +44,8 @@ Num depth_below_axis(Num radius, Num sine, Num along) {
 }  // namespace
 
 void add_capsule_contacts(const FacePolygon& face, const Segment& axis, Num radius,
-                          const AxisProximity& proximity, Num thickness, Num margin, Contacts& out) {
+                          const AxisProximity& proximity, Num thickness, Num margin,
+                          Contacts& out) {
   const NumVec n = proximity.normal;
   const NumVec along = axis.end - axis.start;
   const Num steepness = dot(face.normal, n), tilt = dot(along, n);
@@ -59,7 +61,8 @@ void add_capsule_contacts(const FacePolygon& face, const Segment& axis, Num radi
     }
     const Num slack = (proximity.distance > Num(0) ? kAttained : kFacePreference) * thickness;
     const Num span = ends[1].at - ends[0].at;
-    const bool wide = span * span * length_sq > kParallelCapsules * radius * kParallelCapsules * radius;
+    const bool wide =
+        span * span * length_sq > kParallelCapsules * radius * kParallelCapsules * radius;
     if (wide && std::min(core[0], core[1]) <= proximity.distance + slack) {
       const Num size = std::sqrt(length_sq), sine = std::abs(tilt) / size;
       const Num lower = tilt > Num(0) ? Num(0) : Num(1);
@@ -98,11 +101,14 @@ AxisProximity deepest_of_axis(const PlacedPolyhedron& p, const Segment& axis, Nu
     const Segment edge = p.segment(i);
     const NumVec d = edge.end - edge.start, across = cross(d, along);
     const Num squared = length_squared(across);
-    if (!(squared > kParallelSine * kParallelSine * length_squared(d) * length_squared(along))) continue;
-    const Num sign = dot(across, p.normal(e.face_a) + p.normal(e.face_b)) < Num(0) ? Num(-1) : Num(1);
+    if (!(squared > kParallelSine * kParallelSine * length_squared(d) * length_squared(along)))
+      continue;
+    const Num sign =
+        dot(across, p.normal(e.face_a) + p.normal(e.face_b)) < Num(0) ? Num(-1) : Num(1);
     const Num s = sign * dot(across, axis.start - edge.start) / std::sqrt(squared);
     if (s > std::max(floor, deepest.distance)) {
-      deepest = {(sign / std::sqrt(squared)) * across, s, point_at(axis, closest_parameters(axis, edge).a)};
+      deepest = {(sign / std::sqrt(squared)) * across, s,
+                 point_at(axis, closest_parameters(axis, edge).a)};
     }
   }
   deepest.normal = normalized_or(deepest.normal, {0, 1, 0});

@@ -1,5 +1,5 @@
-// Rays against single shapes, in the shape's frame and in double precision. The boundary belongs to the
-// shape: a ray that starts on it starts inside.
+// Rays against single shapes, in the shape's frame and in double precision. The boundary belongs to
+// the shape: a ray that starts on it starts inside.
 #include "collision/collide.h"
 #include "collision/contact_points.h"
 
@@ -64,7 +64,8 @@ Hit cast_capsule(const Ray& ray, Num half_length, Num radius) {
   if (length_squared(ray.origin - foot) <= radius * radius) return kInside;
   Hit first = kMiss;
   const auto consider = [&first](const Hit& hit) {
-    if (hit.outcome == Outcome::Hit && (first.outcome == Outcome::Miss || hit.fraction < first.fraction)) {
+    if (hit.outcome == Outcome::Hit &&
+        (first.outcome == Outcome::Miss || hit.fraction < first.fraction)) {
       first = hit;
     }
   };
@@ -109,11 +110,16 @@ Hit cast_half_space(const Ray& ray, NumVec normal, Num offset) {
 
 Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
   switch (shape.type) {
-    case ShapeType::Sphere: return cast_round(ray.origin, ray.direction, shape.radius);
-    case ShapeType::Capsule: return cast_capsule(ray, shape.half.y, shape.radius);
-    case ShapeType::Box: return cast_box(ray, to_num(shape.half));
-    case ShapeType::Hull: return cast_hull(ray, *shape.hull);
-    case ShapeType::HalfSpace: break;
+    case ShapeType::Sphere:
+      return cast_round(ray.origin, ray.direction, shape.radius);
+    case ShapeType::Capsule:
+      return cast_capsule(ray, shape.half.y, shape.radius);
+    case ShapeType::Box:
+      return cast_box(ray, to_num(shape.half));
+    case ShapeType::Hull:
+      return cast_hull(ray, *shape.hull);
+    case ShapeType::HalfSpace:
+      break;
   }
   return cast_half_space(ray, normalized_or(to_num(shape.normal), NumVec{0, 1, 0}),
                          static_cast<Num>(shape.offset));
@@ -123,9 +129,11 @@ Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
 
 bool cast_ray(const CollisionShape& shape, const Transform& placement, Vec origin, Vec direction,
               Real max_fraction, RayHit& hit) {
-  const NumRotation q = normalized(NumRotation{placement.q.x, placement.q.y, placement.q.z, placement.q.w});
+  const NumRotation q =
+      normalized(NumRotation{placement.q.x, placement.q.y, placement.q.z, placement.q.w});
   const NumRotation to_shape = conjugate(q);
-  const Ray ray{rotate(to_shape, to_num(origin) - to_num(placement.p)), rotate(to_shape, to_num(direction))};
+  const Ray ray{rotate(to_shape, to_num(origin) - to_num(placement.p)),
+                rotate(to_shape, to_num(direction))};
   const Hit found = cast_shape(shape, ray);
   if (found.outcome == Outcome::Miss) return false;
   if (found.outcome == Outcome::Inside) {
@@ -133,7 +141,8 @@ bool cast_ray(const CollisionShape& shape, const Transform& placement, Vec origi
     return true;
   }
   if (!(found.fraction <= static_cast<Num>(max_fraction))) return false;
-  hit = {static_cast<Real>(found.fraction), cast<Real>(normalized_or(rotate(q, found.normal), NumVec{0, 1, 0}))};
+  hit = {static_cast<Real>(found.fraction),
+         cast<Real>(normalized_or(rotate(q, found.normal), NumVec{0, 1, 0}))};
   return true;
 }
 

@@ -84,7 +84,8 @@ Proximity touching(const CollisionShape& a, const Transform& xa, const Collision
                    const Transform& xb, Vec shared) {
   Proximity result{0, shared, shared, {0, 1, 0}};
   Manifold manifold;
-  const Real margin = std::min(bounding_radius(a), bounding_radius(b));  // touching cores always count
+  const Real margin =
+      std::min(bounding_radius(a), bounding_radius(b));  // touching cores always count
   if (!collide(a, xa, b, xb, margin, manifold)) return result;
   result.normal = manifold.normal;
   int deepest = 0;
@@ -110,13 +111,13 @@ Proximity closest_points(const CollisionShape& a, const Transform& xa, const Col
     const Closest c = from_half_space(core_b, core_a);
     return rounded({c.distance, c.on_b, c.on_a, -c.normal}, origin);
   }
-  const GjkResult cores = gjk_distance([&](NumVec d) { return core_a.support(d); },
-                                       [&](NumVec d) { return core_b.support(d); },
-                                       core_b.middle() - core_a.middle(), core_a.size() + core_b.size());
+  const GjkResult cores = gjk_distance(
+      [&](NumVec d) { return core_a.support(d); }, [&](NumVec d) { return core_b.support(d); },
+      core_b.middle() - core_a.middle(), core_a.size() + core_b.size());
   if (cores.overlap) return touching(a, xa, b, xb, cast<Real>(origin + cores.on_a));
   const NumVec n = cores.normal;
-  return rounded({cores.distance - core_a.radius() - core_b.radius(), cores.on_a + core_a.radius() * n,
-                  cores.on_b - core_b.radius() * n, n},
+  return rounded({cores.distance - core_a.radius() - core_b.radius(),
+                  cores.on_a + core_a.radius() * n, cores.on_b - core_b.radius() * n, n},
                  origin);
 }
 

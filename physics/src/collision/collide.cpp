@@ -19,11 +19,15 @@ constexpr PairRoutine kRoutines[kShapeTypeCount][kShapeTypeCount] = {
 
 int rank(ShapeType type) {
   switch (type) {
-    case ShapeType::Sphere: return 0;
-    case ShapeType::Capsule: return 1;
+    case ShapeType::Sphere:
+      return 0;
+    case ShapeType::Capsule:
+      return 1;
     case ShapeType::Box:
-    case ShapeType::Hull: return 2;
-    case ShapeType::HalfSpace: return 3;
+    case ShapeType::Hull:
+      return 2;
+    case ShapeType::HalfSpace:
+      return 3;
   }
   return 0;
 }
@@ -55,9 +59,7 @@ bool goes_second(const CollisionShape& a, const Transform& xa, const CollisionSh
   return placed_after(xa, xb);
 }
 
-NumRotation unit_rotation(Rotation q) {
-  return normalized(NumRotation{q.x, q.y, q.z, q.w});
-}
+NumRotation unit_rotation(Rotation q) { return normalized(NumRotation{q.x, q.y, q.z, q.w}); }
 
 // One sum finds any number that is not finite; finite single coordinates cannot overflow it.
 bool is_placed(NumVec p, NumRotation a, NumRotation b) {
@@ -82,7 +84,8 @@ bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape&
   const NumRotation q_first = unit_rotation(x_first.q), q_second = unit_rotation(x_second.q);
   if (!is_placed(offset, q_first, q_second)) return false;
   Contacts contacts;
-  routine({first, {0, 0, 0}, q_first}, {second, offset, q_second}, static_cast<Num>(margin), contacts);
+  routine({first, {0, 0, 0}, q_first}, {second, offset, q_second}, static_cast<Num>(margin),
+          contacts);
   if (contacts.count == 0) return false;
 
   // Turning a normal into world axes leaves it a few roundings away from unit length.

@@ -22,8 +22,8 @@ struct Proximity {
 Proximity closest_points(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
                          const Transform& xb);
 
-// First hit of the ray origin + t direction, 0 <= t <= max_fraction, from outside; a ray that starts
-// inside hits at t = 0 with normal = -direction (unit).
+// First hit of the ray origin + t direction, 0 <= t <= max_fraction, from outside; a ray that
+// starts inside hits at t = 0 with normal = -direction (unit).
 struct RayHit {
   Real fraction;
   Vec normal;  // unit, outward

@@ -12,8 +12,8 @@ constexpr NumMatrix kIdentity{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 NumVec clamp_to_box(NumVec point, NumVec half) { return max_each(-half, min_each(half, point)); }
 
 // Parameter at which an axis is closest to a box. Half the derivative of the squared distance is
-// g(t) = sum_i d_i (x_i(t) - clamp(x_i(t))): continuous, never falling, and linear between the planes of
-// the box, so that its zero is found exactly.
+// g(t) = sum_i d_i (x_i(t) - clamp(x_i(t))): continuous, never falling, and linear between the
+// planes of the box, so that its zero is found exactly.
 Num closest_axis_parameter(const Segment& axis, NumVec half) {
   const NumVec d = axis.end - axis.start;
   const auto slope = [&](Num t) {

@@ -1,5 +1,5 @@
-// Box against box: the fifteen axes [Gottschalk 1996], then faces laid over one another. Works in the
-// frame of the first box, where its axes are the coordinate axes.
+// Box against box: the fifteen axes [Gottschalk 1996], then faces laid over one another. Works in
+// the frame of the first box, where its axes are the coordinate axes.
 #include "collision/box_view.h"
 #include "collision/collide_pairs.h"
 #include "collision/polyhedron_contact.h"
@@ -58,8 +58,8 @@ Best best_face_of_b(const BoxPair& p) {
   return best;
 }
 
-// Axes e_i x b_j that separate more than `floor`. Lengths are compared squared: a root is only taken
-// for an axis that wins.
+// Axes e_i x b_j that separate more than `floor`. Lengths are compared squared: a root is only
+// taken for an axis that wins.
 Best best_edges(const BoxPair& p, Num floor) {
   Best best;
   best.separation = floor;
@@ -96,7 +96,8 @@ ContactAxis edge_axis(const BoxView& box_a, const BoxView& box_b, const Best& be
   axis.normal = n;
   axis.separation = best.separation;
   // The edge of A farthest along n, that of B farthest against it.
-  const auto edge_of = [](const BoxView& box, int along, NumVec d, Segment& edge, FeatureName& name) {
+  const auto edge_of = [](const BoxView& box, int along, NumVec d, Segment& edge,
+                          FeatureName& name) {
     const int bit = 1 << along, start = box.support_index(d) & ~bit;
     edge = {box.vertex(start), box.vertex(start | bit)};
     name = edge_name(box_edge_index(start, start | bit));
@@ -142,19 +143,23 @@ void collide_boxes(const Placed& a, const Placed& b, Num margin, Contacts& out) 
                        {R.row0.y, R.row1.y, R.row2.y},
                        {R.row0.z, R.row1.z, R.row2.z}},
                       half_b};
-  const ContactAxis axis_a = face_axis(ContactAxis::Kind::FaceOfA,
-                                       axis_vector(face_a.i, pair.t[face_a.i] < Num(0) ? Num(-1) : Num(1)),
-                                       face_a.separation, box_a, box_b);
-  const ContactAxis axis_b = face_axis(ContactAxis::Kind::FaceOfB,
-                                       (pair.tb[face_b.j] < Num(0) ? Num(-1) : Num(1)) * box_b.axes[face_b.j],
-                                       face_b.separation, box_a, box_b);
+  const ContactAxis axis_a =
+      face_axis(ContactAxis::Kind::FaceOfA,
+                axis_vector(face_a.i, pair.t[face_a.i] < Num(0) ? Num(-1) : Num(1)),
+                face_a.separation, box_a, box_b);
+  const ContactAxis axis_b =
+      face_axis(ContactAxis::Kind::FaceOfB,
+                (pair.tb[face_b.j] < Num(0) ? Num(-1) : Num(1)) * box_b.axes[face_b.j],
+                face_b.separation, box_a, box_b);
   const Num size = std::max(length(half_a), length(half_b));
   PolyhedronContact<BoxView, BoxView> contact{box_a, box_b, margin, thickness, size, t, out};
   const bool edges_win = edges.separation > best_face;
   const ContactAxis axis_e = edges_win ? edge_axis(box_a, box_b, edges) : axis_a;
-  const ContactAxis& best = edges_win ? axis_e : (face_a.separation >= face_b.separation ? axis_a : axis_b);
+  const ContactAxis& best =
+      edges_win ? axis_e : (face_a.separation >= face_b.separation ? axis_a : axis_b);
   const Num enough = best.separation - kFacePreference * thickness;
-  contact.along(axis_a.separation >= enough ? axis_a : (axis_b.separation >= enough ? axis_b : best), best);
+  contact.along(
+      axis_a.separation >= enough ? axis_a : (axis_b.separation >= enough ? axis_b : best), best);
   if (out.count == 0) return;
   out.normal = rotate(a.q, out.normal);
   for (int i = 0; i < out.count; ++i) out.points[i].position = rotate(a.q, out.points[i].position);

@@ -1,5 +1,5 @@
-// Half-spaces against everything else: the lowest points of the other shape. The normal is the plane's,
-// always, however deep the other shape is.
+// Half-spaces against everything else: the lowest points of the other shape. The normal is the
+// plane's, always, however deep the other shape is.
 #include "collision/collide_pairs.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -55,7 +55,8 @@ void collide_half_space_box(const Placed& a, const Placed& b, Num margin, Contac
     if (!positive) set_component(point, axis, -component(half, axis));
     if (!positive_u) set_component(point, u, -component(half, u));
     if (!positive_v) set_component(point, v, -component(half, v));
-    const int index = (positive ? 1 << axis : 0) | (positive_u ? 1 << u : 0) | (positive_v ? 1 << v : 0);
+    const int index =
+        (positive ? 1 << axis : 0) | (positive_u ? 1 << u : 0) | (positive_v ? 1 << v : 0);
     add_if_near(plane, b.p + rotate(b.q, point), Num(0), vertex_name(index), margin, out);
   }
 }
@@ -95,7 +96,8 @@ void collide_half_space_hull(const Placed& a, const Placed& b, Num margin, Conta
         pair_name(face_name(0), vertex_name(static_cast<int>(index)))};
   }
   if (candidates.count > 0) {
-    choose_points(candidates, plane.normal, kDeepestTie * static_cast<Num>(hull.inner_radius()), out);
+    choose_points(candidates, plane.normal, kDeepestTie * static_cast<Num>(hull.inner_radius()),
+                  out);
   }
 }
 

@@ -1,5 +1,5 @@
-// Hulls against spheres and capsules, in the hull's frame: closest points of the cores while they are
-// apart, least way out through a face or past an edge when they are not.
+// Hulls against spheres and capsules, in the hull's frame: closest points of the cores while they
+// are apart, least way out through a face or past an edge when they are not.
 #include "collision/capsule_contact.h"
 #include "collision/collide_pairs.h"
 #include "collision/gjk.h"
@@ -28,9 +28,10 @@ FaceDistance highest_above(const PlacedPolyhedron& hull, const Segment& core) {
 GjkResult distance_to_core(const PlacedPolyhedron& hull, const Segment& core) {
   const NumVec middle = Num(0.5) * (core.start + core.end);
   const Num size = hull.outer_radius() + length(core.end - core.start);
-  return gjk_distance([&hull](NumVec d) { return hull.vertex(hull.support_index(d)); },
-                      [&core](NumVec d) { return dot(core.end - core.start, d) > Num(0) ? core.end : core.start; },
-                      middle - hull.centre(), size);
+  return gjk_distance(
+      [&hull](NumVec d) { return hull.vertex(hull.support_index(d)); },
+      [&core](NumVec d) { return dot(core.end - core.start, d) > Num(0) ? core.end : core.start; },
+      middle - hull.centre(), size);
 }
 
 }  // namespace

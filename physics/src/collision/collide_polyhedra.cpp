@@ -1,6 +1,6 @@
-// Hulls and boxes among themselves: separating axes over faces and over the edge pairs whose arcs cross
-// on the Gauss map [Gregorius 2013]. Faces and edges that cannot beat the best axis found so far are
-// passed over by balls inside the shapes.
+// Hulls and boxes among themselves: separating axes over faces and over the edge pairs whose arcs
+// cross on the Gauss map [Gregorius 2013]. Faces and edges that cannot beat the best axis found so
+// far are passed over by balls inside the shapes.
 #include "collision/collide_pairs.h"
 #include "collision/placed_polyhedron.h"
 #include "collision/polyhedron_contact.h"
@@ -18,7 +18,8 @@ Num sure_inner_radius(const PlacedPolyhedron& p) {
   return (Num(1) - Num(4) * kHullUnevenness) * p.inner_radius();
 }
 
-// The face of p from which q is farthest. Along a face normal q starts no farther out than its ball.
+// The face of p from which q is farthest. Along a face normal q starts no farther out than its
+// ball.
 Best best_face(const PlacedPolyhedron& p, const PlacedPolyhedron& q, Num floor) {
   const NumVec centre = q.centre();
   const Num radius = sure_inner_radius(q);
@@ -44,14 +45,15 @@ Num largest_on_arc(NumVec n1, NumVec n2, NumVec w) {
   const Num w1 = dot(n1, w), w2 = dot(n2, w), c = dot(n1, n2);
   const Num u1 = w1 - c * w2, u2 = w2 - c * w1;
   if (!(u1 > Num(0) && u2 > Num(0))) return std::max(w1, w2);
-  // w projected to the plane of the arc: alpha n1 + beta n2 with (alpha, beta) = (u1, u2) / (1 - c^2).
+  // w projected to the plane of the arc: alpha n1 + beta n2 with (alpha, beta) = (u1, u2) / (1 -
+  // c^2).
   const Num sine_squared = Num(1) - c * c;
   if (!(sine_squared > kParallelSine)) return length(w);
   return std::sqrt(std::max(Num(0), (w1 * u1 + w2 * u2) / sine_squared));
 }
 
-// The edges of p whose normals could separate more than `floor` from a ball; sign -1 turns p's normals
-// around (for the second shape, whose normals point back).
+// The edges of p whose normals could separate more than `floor` from a ball; sign -1 turns p's
+// normals around (for the second shape, whose normals point back).
 int edges_in_reach(const PlacedPolyhedron& p, Num sign, NumVec centre, Num radius, Num floor,
                    std::uint16_t* list) {
   int count = 0;
@@ -85,7 +87,8 @@ Best best_edges(const PlacedPolyhedron& a, const PlacedPolyhedron& b, Num floor)
       if (!(a1_db * a2_db < Num(0) && b1_da * a2_db > Num(0))) continue;
       const NumVec across = cross(da, db);
       const Num squared = length_squared(across);
-      if (!(squared > kParallelSine * kParallelSine * length_squared(da) * length_squared(db))) continue;
+      if (!(squared > kParallelSine * kParallelSine * length_squared(da) * length_squared(db)))
+        continue;
       const Num sign = dot(across, a1 + a2) < Num(0) ? Num(-1) : Num(1);
       const Num raw = sign * dot(across, b.vertex(eb.v0) - a.vertex(ea.v0));
       const Num s = raw / std::sqrt(squared);
@@ -123,8 +126,8 @@ ContactAxis edges_axis(const PlacedPolyhedron& a, const PlacedPolyhedron& b, con
   axis.edge_b = b.segment(best.b);
   axis.name_a = edge_name(best.a);
   axis.name_b = edge_name(best.b);
-  NumVec n = normalized_or(cross(axis.edge_a.end - axis.edge_a.start, axis.edge_b.end - axis.edge_b.start),
-                           {1, 0, 0});
+  NumVec n = normalized_or(
+      cross(axis.edge_a.end - axis.edge_a.start, axis.edge_b.end - axis.edge_b.start), {1, 0, 0});
   if (dot(n, a.normal(ea.face_a) + a.normal(ea.face_b)) < Num(0)) n = -n;
   axis.normal = n;
   axis.separation = best.separation;
@@ -162,7 +165,8 @@ void collide_polyhedra(const Placed& placed_a, const Placed& placed_b, Num margi
   const ContactAxis axis_e = edges_win ? edges_axis(a, b, edges) : axis_a;
   const ContactAxis& best =
       edges_win ? axis_e : (face_a.separation >= face_b.separation ? axis_a : axis_b);
-  contact.along(face_a.separation >= enough ? axis_a : (face_b.separation >= enough ? axis_b : best), best);
+  contact.along(
+      face_a.separation >= enough ? axis_a : (face_b.separation >= enough ? axis_b : best), best);
 
   if (out.count == 0) return;
   out.normal = rotate(placed_a.q, out.normal);

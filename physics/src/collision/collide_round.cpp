@@ -23,9 +23,9 @@ void add_core_contact(NumVec pa, Num ra, NumVec pb, Num rb, NumVec fallback, Num
   out.add(Num(0.5) * (pa + pb + (ra - rb) * out.normal), separation, kSingle);
 }
 
-// The parts of two capsules that run beside one another, if they do so nearly in parallel: a point at
-// each end of that part, both along the one normal. The separation along it is exact, the contact
-// points lie on the surfaces to kParallelCapsules^2 / 2 of the radii.
+// The parts of two capsules that run beside one another, if they do so nearly in parallel: a point
+// at each end of that part, both along the one normal. The separation along it is exact, the
+// contact points lie on the surfaces to kParallelCapsules^2 / 2 of the radii.
 bool add_parallel_contacts(const Segment& a, Num ra, const Segment& b, Num rb, NumVec normal,
                            Num margin, Contacts& out) {
   const NumVec da = a.end - a.start, db = b.end - b.start;
@@ -35,7 +35,8 @@ bool add_parallel_contacts(const Segment& a, Num ra, const Segment& b, Num rb, N
   const Num lower = std::max(Num(0), std::min(start, end));
   const Num upper = std::min(Num(1), std::max(start, end));
   const Num reach = ra + rb, aside_limit = kParallelCapsules * reach;
-  if (!(upper > lower && (upper - lower) * (upper - lower) * aa > aside_limit * aside_limit)) return false;
+  if (!(upper > lower && (upper - lower) * (upper - lower) * aa > aside_limit * aside_limit))
+    return false;
   const Num at[2] = {lower, upper};
   const int start_of_b = start < end ? 0 : 1;  // which of the two ends belongs to b.start
   NumVec on_a[2];
@@ -69,7 +70,8 @@ void collide_capsule_sphere(const Placed& a, const Placed& b, Num margin, Contac
   const Segment axis = axis_of(a);
   const NumVec on_axis = point_at(axis, closest_parameter(axis, b.p));
   const NumVec along = normalized_or(axis.end - axis.start, {0, 1, 0});
-  add_core_contact(on_axis, a.shape.radius, b.p, b.shape.radius, any_perpendicular(along), margin, out);
+  add_core_contact(on_axis, a.shape.radius, b.p, b.shape.radius, any_perpendicular(along), margin,
+                   out);
 }
 
 void collide_capsules(const Placed& a, const Placed& b, Num margin, Contacts& out) {

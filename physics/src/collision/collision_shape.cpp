@@ -112,7 +112,8 @@ Status check_shape(const Shape& shape) { return std::visit(Check{}, shape); }
 
 Aabb bounds_of(const CollisionShape& shape, const Transform& x) {
   switch (shape.type) {
-    case ShapeType::HalfSpace: return half_space_bounds(shape, x);
+    case ShapeType::HalfSpace:
+      return half_space_bounds(shape, x);
     case ShapeType::Hull: {
       const Matrix3<Real> R = to_matrix(x.q);
       Vec lower{kUnbounded, kUnbounded, kUnbounded}, upper = -lower;
@@ -125,7 +126,8 @@ Aabb bounds_of(const CollisionShape& shape, const Transform& x) {
     }
     case ShapeType::Sphere:
     case ShapeType::Capsule:
-    case ShapeType::Box: break;
+    case ShapeType::Box:
+      break;
   }
   const Vec r{shape.radius, shape.radius, shape.radius};
   if (shape.type == ShapeType::Sphere) return {x.p - r, x.p + r};
@@ -137,7 +139,8 @@ Aabb bounds_of(const CollisionShape& shape, const Transform& x) {
 
 Real bounding_radius(const CollisionShape& shape) {
   switch (shape.type) {
-    case ShapeType::HalfSpace: return kUnbounded;
+    case ShapeType::HalfSpace:
+      return kUnbounded;
     case ShapeType::Hull: {
       Real squared = 0;
       for (const Vec3& v : shape.hull->vertices()) squared = std::max(squared, v.squaredNorm());
@@ -145,7 +148,8 @@ Real bounding_radius(const CollisionShape& shape) {
     }
     case ShapeType::Sphere:
     case ShapeType::Capsule:
-    case ShapeType::Box: break;
+    case ShapeType::Box:
+      break;
   }
   return length(shape.half) + shape.radius;
 }
@@ -153,18 +157,22 @@ Real bounding_radius(const CollisionShape& shape) {
 Real smallest_thickness(const CollisionShape& shape) {
   switch (shape.type) {
     case ShapeType::Sphere:
-    case ShapeType::Capsule: return Real(2) * shape.radius;
+    case ShapeType::Capsule:
+      return Real(2) * shape.radius;
     case ShapeType::Box:
       return Real(2) * std::min(shape.half.x, std::min(shape.half.y, shape.half.z));
-    case ShapeType::Hull: return Real(2) * shape.hull->inner_radius();
-    case ShapeType::HalfSpace: break;
+    case ShapeType::Hull:
+      return Real(2) * shape.hull->inner_radius();
+    case ShapeType::HalfSpace:
+      break;
   }
   return kUnbounded;
 }
 
 Vec support(const CollisionShape& shape, Vec d) {
   switch (shape.type) {
-    case ShapeType::Sphere: return {0, 0, 0};
+    case ShapeType::Sphere:
+      return {0, 0, 0};
     case ShapeType::Capsule:
     case ShapeType::Box:
       return {d.x < Real(0) ? -shape.half.x : shape.half.x,
@@ -180,7 +188,8 @@ Vec support(const CollisionShape& shape, Vec d) {
       }
       return farthest;
     }
-    case ShapeType::HalfSpace: break;
+    case ShapeType::HalfSpace:
+      break;
   }
   // The plane's own point: a half-space has no farthest point in any other direction.
   return shape.offset * shape.normal;

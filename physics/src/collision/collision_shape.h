@@ -1,5 +1,5 @@
-// A shape as the collision routines see it: a core (point, segment, box, polyhedron, plane) grown by
-// a radius.
+// A shape as the collision routines see it: a core (point, segment, box, polyhedron, plane) grown
+// by a radius.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@ inline constexpr int kShapeTypeCount = 5;
 
 struct CollisionShape {
   ShapeType type = ShapeType::Sphere;
-  Real radius = 0;                       // [m] sphere, capsule; 0 for the others
-  Vec half{0, 0, 0};                     // [m] box: half extents; capsule: (0, half_length, 0)
-  Vec normal{0, 1, 0};                   // half-space: outward unit normal
-  Real offset = 0;                       // [m] half-space
-  const HullGeometry* hull = nullptr;    // hull; kept alive by `owner`
+  Real radius = 0;                     // [m] sphere, capsule; 0 for the others
+  Vec half{0, 0, 0};                   // [m] box: half extents; capsule: (0, half_length, 0)
+  Vec normal{0, 1, 0};                 // half-space: outward unit normal
+  Real offset = 0;                     // [m] half-space
+  const HullGeometry* hull = nullptr;  // hull; kept alive by `owner`
   std::shared_ptr<const HullGeometry> owner;
 };
 

@@ -18,8 +18,8 @@ using NumMatrix = Matrix3<Num>;
 
 // ---- what shapes are allowed --------------------------------------------------------------------
 
-// Sizes [m] outside are refused: a hundred times beyond 1 mm ... 10 km on both ends, where volume and
-// inertia still fit into single precision.
+// Sizes [m] outside are refused: a hundred times beyond 1 mm ... 10 km on both ends, where volume
+// and inertia still fit into single precision.
 inline constexpr Num kSmallestSize = 1e-5;
 inline constexpr Num kLargestSize = 1e6;
 // Largest over smallest extent of one shape: beyond it the inertia is singular in single precision.
@@ -34,9 +34,9 @@ inline constexpr int kMaxHullFaces = 2 * kMaxHullVertices - 4;  // Euler, all tr
 inline constexpr int kMaxHullEdges = 3 * kMaxHullVertices - 6;
 inline constexpr int kMaxFaceVertices = 64;
 
-// ---- coherence: which of nearly equal answers is taken ----------------------------------------------
-// All are parts of the half thickness of the thinner shape of the pair, thus scale-free; each bounds
-// the error that it brings into the depth.
+// ---- coherence: which of nearly equal answers is taken
+// ---------------------------------------------- All are parts of the half thickness of the thinner
+// shape of the pair, thus scale-free; each bounds the error that it brings into the depth.
 
 // A face of the larger shape is kept as normal unless a face of the other, or two edges, beat its
 // separation by this much: normals of resting shapes do not alternate.
@@ -58,7 +58,8 @@ inline constexpr Num kParallelCapsules = 0.01;
 // normal is then its radius away to half a percent.
 inline constexpr Num kParallelTilt = 0.1;
 
-// ---- rounding ---------------------------------------------------------------------------------------
+// ---- rounding
+// ---------------------------------------------------------------------------------------
 
 inline constexpr Num kNumEpsilon = std::numeric_limits<Num>::epsilon();
 // Edges at a smaller angle [rad] have no cross product worth a name; face normals cover their case

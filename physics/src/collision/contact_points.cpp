@@ -48,12 +48,14 @@ void choose_points(const ContactCandidates& list, NumVec normal, Num tie, Contac
     }
     // The fourth adds the most area outside the triangle.
     const int corner[3] = {first, second, third};
-    const Num turn = doubled_area(at(first), at(second), at(third), normal) < Num(0) ? Num(-1) : Num(1);
+    const Num turn =
+        doubled_area(at(first), at(second), at(third), normal) < Num(0) ? Num(-1) : Num(1);
     int fourth = first;
     Num gain = span * (kSpanGain - Num(1));
     for (int i = 0; i < list.count; ++i) {
       for (int k = 0; k < 3; ++k) {
-        const Num outside = -turn * doubled_area(at(corner[k]), at(corner[(k + 1) % 3]), at(i), normal);
+        const Num outside =
+            -turn * doubled_area(at(corner[k]), at(corner[(k + 1) % 3]), at(i), normal);
         if (outside > gain * kSpanGain) gain = outside, fourth = i;
       }
     }

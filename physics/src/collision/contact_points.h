@@ -17,8 +17,8 @@ struct Placed {
 };
 
 struct ContactPoint {
-  NumVec position;    // [m] midway between the surfaces
-  Num separation;     // [m] along the normal
+  NumVec position;  // [m] midway between the surfaces
+  Num separation;   // [m] along the normal
   std::uint32_t feature;
 };
 
@@ -33,8 +33,8 @@ struct Contacts {
   }
 };
 
-// More points than a manifold holds, in order around the contact area. No initial values: large, and
-// only the first `count` are read.
+// More points than a manifold holds, in order around the contact area. No initial values: large,
+// and only the first `count` are read.
 struct ContactCandidates {
   static constexpr int kCapacity = 2 * kMaxFaceVertices + 4;
   int count;
@@ -43,7 +43,8 @@ struct ContactCandidates {
 
 // Chooses at most four: the deepest, and those that span the largest area with it. Ties fall to the
 // earlier point, so that the choice stays while the points move a little. `tie` [m]: separations
-// closer than that are equal. Points with the name of one already chosen are left out (they coincide).
+// closer than that are equal. Points with the name of one already chosen are left out (they
+// coincide).
 void choose_points(const ContactCandidates& candidates, NumVec normal, Num tie, Contacts& out);
 
 inline NumVec to_num(Vec v) { return cast<Num>(v); }

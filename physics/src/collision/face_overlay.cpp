@@ -43,14 +43,16 @@ void clip_by_side(const FacePolygon& a, const FacePolygon& b, int side, NumVec o
       const Num t = from_distance / (from_distance - to_distance);
       const bool leaving = to_distance > band;
       out.corners[out.count++] = {from->point + t * (to->point - from->point),
-                                  cut_name(a, b, side, from->edge), leaving ? -1 - side : from->edge};
+                                  cut_name(a, b, side, from->edge),
+                                  leaving ? -1 - side : from->edge};
     }
     if (to_distance <= band) {
       out.corners[out.count] = *to;
       // From a corner on the side outwards: the way on runs along the side.
       const ClipCorner& next = in.corners[i + 1 < in.count ? i + 1 : 0];
       const bool at_side = to_distance >= -band;
-      if (at_side && dot(outward, next.point - origin) > band) out.corners[out.count].edge = -1 - side;
+      if (at_side && dot(outward, next.point - origin) > band)
+        out.corners[out.count].edge = -1 - side;
       ++out.count;
     }
     from = to;
@@ -85,7 +87,8 @@ Num overlay_faces(const FacePolygon& a, const FacePolygon& b, NumVec normal, Num
     const Num separation = std::max(least, (dot(a.normal, corner.point) - a.offset) * per_height);
     smallest = std::min(smallest, separation);
     if (!(separation <= margin) || out.count == ContactCandidates::kCapacity) continue;
-    out.points[out.count++] = {corner.point - Num(0.5) * separation * normal, separation, corner.feature};
+    out.points[out.count++] = {corner.point - Num(0.5) * separation * normal, separation,
+                               corner.feature};
   }
   return smallest;
 }

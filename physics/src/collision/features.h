@@ -1,5 +1,5 @@
-// Names of the features (vertex, edge, face) that meet in a contact point: 16 bits for each shape, so
-// that the same pair of features has the same name whichever of them is called the reference.
+// Names of the features (vertex, edge, face) that meet in a contact point: 16 bits for each shape,
+// so that the same pair of features has the same name whichever of them is called the reference.
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,8 @@ Nearest nearest_of_edge(const GjkSimplex& s, int i, int j) {
 Nearest nearer(const Nearest& a, const Nearest& b) { return b.squared < a.squared ? b : a; }
 
 Nearest nearest_of_edges(const GjkSimplex& s, int i, int j, int k) {
-  return nearer(nearest_of_edge(s, i, j), nearer(nearest_of_edge(s, j, k), nearest_of_edge(s, k, i)));
+  return nearer(nearest_of_edge(s, i, j),
+                nearer(nearest_of_edge(s, j, k), nearest_of_edge(s, k, i)));
 }
 
 Nearest nearest_of_triangle(const GjkSimplex& s, int i, int j, int k) {
@@ -40,8 +41,8 @@ Nearest nearest_of_triangle(const GjkSimplex& s, int i, int j, int k) {
   if (!(squared > Num(0))) return nearest_of_edges(s, i, j, k);
   const Num wa = dot(n, cross(b, c)), wb = dot(n, cross(c, a)), wc = dot(n, cross(a, b));
   if (!(wa > Num(0) && wb > Num(0) && wc > Num(0))) return nearest_of_edges(s, i, j, k);
-  // The foot of the perpendicular, from the plane rather than from the weights: they cancel badly for
-  // a sliver seen from far, the plane does not.
+  // The foot of the perpendicular, from the plane rather than from the weights: they cancel badly
+  // for a sliver seen from far, the plane does not.
   const NumVec point = (dot(n, a) / squared) * n;
   const Num sum = wa + wb + wc;
   return {3, {i, j, k}, {wa / sum, wb / sum, wc / sum}, point, length_squared(point)};

@@ -18,20 +18,23 @@ struct GjkSimplex {
 };
 
 struct GjkResult {
-  bool overlap;     // the cores share a point (to kTouching of their size)
-  Num distance;     // [m], 0 when they overlap
+  bool overlap;  // the cores share a point (to kTouching of their size)
+  Num distance;  // [m], 0 when they overlap
   NumVec on_a, on_b;
-  NumVec normal;    // unit, from a to b; not set when they overlap
+  NumVec normal;  // unit, from a to b; not set when they overlap
 };
 
-// Replaces the simplex by the smallest face of it that holds the point closest to the origin, with that
-// point's weights, and returns that point. A full tetrahedron left over means: the origin is inside.
+// Replaces the simplex by the smallest face of it that holds the point closest to the origin, with
+// that point's weights, and returns that point. A full tetrahedron left over means: the origin is
+// inside.
 NumVec reduce_to_closest(GjkSimplex& simplex);
 
-// `support_a(d)`: a farthest point of core A in direction d, likewise for B, in one frame. `guess`: any
-// vector from A to B. `scale` [m]: a size of the two cores, for the smallest distance told from 0.
+// `support_a(d)`: a farthest point of core A in direction d, likewise for B, in one frame. `guess`:
+// any vector from A to B. `scale` [m]: a size of the two cores, for the smallest distance told from
+// 0.
 template <class SupportA, class SupportB>
-GjkResult gjk_distance(const SupportA& support_a, const SupportB& support_b, NumVec guess, Num scale) {
+GjkResult gjk_distance(const SupportA& support_a, const SupportB& support_b, NumVec guess,
+                       Num scale) {
   GjkResult result{};
   GjkSimplex simplex;
   const auto corner_towards = [&](NumVec d) {

@@ -13,9 +13,7 @@ namespace {
 using detail::Num;
 using detail::NumVec;
 
-HullGeometry::Result bad(const char* message) {
-  return {nullptr, {StatusCode::BadShape, message}};
-}
+HullGeometry::Result bad(const char* message) { return {nullptr, {StatusCode::BadShape, message}}; }
 
 struct HalfEdge {
   std::uint32_t v0, v1, face, slot;  // slot: place in the list of all face vertices
@@ -28,8 +26,8 @@ struct Plane {
   Num offset;
 };
 
-// Vector area by Newell's sum about a point of the face: exact for any polygon, and the mean plane of
-// an uneven one.
+// Vector area by Newell's sum about a point of the face: exact for any polygon, and the mean plane
+// of an uneven one.
 NumVec doubled_vector_area(std::span<const NumVec> points, std::span<const std::uint32_t> loop) {
   NumVec sum{0, 0, 0};
   const NumVec origin = points[loop[0]];
@@ -66,7 +64,8 @@ Solid solid_of(std::span<const NumVec> points, std::span<const std::uint32_t> si
 
 const char* check_input(std::span<const Vec3> vertices, std::span<const std::uint32_t> sizes,
                         std::span<const std::uint32_t> loops) {
-  if (vertices.size() < 4 || sizes.size() < 4) return "a hull needs at least 4 vertices and 4 faces";
+  if (vertices.size() < 4 || sizes.size() < 4)
+    return "a hull needs at least 4 vertices and 4 faces";
   if (vertices.size() > static_cast<std::size_t>(detail::kMaxHullVertices)) {
     return "a hull may have at most 256 vertices: simplify it first";
   }
@@ -78,7 +77,8 @@ const char* check_input(std::span<const Vec3> vertices, std::span<const std::uin
     }
     total += size;
   }
-  if (total != loops.size()) return "the face sizes of a hull must add up to its list of face vertices";
+  if (total != loops.size())
+    return "the face sizes of a hull must add up to its list of face vertices";
   for (const std::uint32_t v : loops) {
     if (v >= vertices.size()) return "a face of a hull names a vertex that does not exist";
   }
@@ -94,7 +94,8 @@ const char* pair_edges(std::vector<HalfEdge>& halves, std::vector<HullGeometry::
     return a.slot < b.slot;
   });
   constexpr const char* kOpen =
-      "each edge of a hull must be shared by exactly two faces that run along it in opposite directions";
+      "each edge of a hull must be shared by exactly two faces that run along it in opposite "
+      "directions";
   if (halves.size() % 2 != 0) return kOpen;
   face_edges.resize(halves.size());
   for (std::size_t i = 0; i < halves.size(); i += 2) {
@@ -118,7 +119,8 @@ HullGeometry::Result HullGeometry::create(std::span<const Vec3> vertices,
   std::vector<NumVec> points;
   points.reserve(vertices.size());
   for (const Vec3& v : vertices) {
-    if (!v.allFinite()) return {nullptr, {StatusCode::NotFinite, "a hull's vertices must be finite"}};
+    if (!v.allFinite())
+      return {nullptr, {StatusCode::NotFinite, "a hull's vertices must be finite"}};
     points.push_back(detail::to_num(v));
   }
 
@@ -137,7 +139,8 @@ HullGeometry::Result HullGeometry::create(std::span<const Vec3> vertices,
     }
     hull->face_starts_.push_back(start + face_sizes[k]);
   }
-  if (const char* message = pair_edges(halves, hull->edges_, hull->face_edges_)) return bad(message);
+  if (const char* message = pair_edges(halves, hull->edges_, hull->face_edges_))
+    return bad(message);
   if (std::any_of(uses.begin(), uses.end(), [](int n) { return n < 3; })) {
     return bad("each vertex of a hull must be used by at least three faces");
   }
@@ -166,7 +169,8 @@ HullGeometry::Result HullGeometry::create(std::span<const Vec3> vertices,
     inner = std::min(inner, highest);
     planes.push_back({normal, highest});
   }
-  // Each vertex of a face must lie in the plane that holds all: uneven and reflex faces both fail this.
+  // Each vertex of a face must lie in the plane that holds all: uneven and reflex faces both fail
+  // this.
   const Num allowed = detail::kHullUnevenness * width;
   for (std::size_t k = 0; k < planes.size(); ++k) {
     for (const std::uint32_t v : hull->face(k)) {
@@ -177,10 +181,12 @@ HullGeometry::Result HullGeometry::create(std::span<const Vec3> vertices,
   }
 
   Num outer_squared = 0;
-  for (const NumVec& p : points) outer_squared = std::max(outer_squared, length_squared(p - solid.centroid));
+  for (const NumVec& p : points)
+    outer_squared = std::max(outer_squared, length_squared(p - solid.centroid));
   for (const Plane& plane : planes) {
     hull->face_normals_.push_back(detail::to_public(detail::cast<Real>(plane.normal)));
-    hull->face_offsets_.push_back(static_cast<Real>(plane.offset + dot(plane.normal, solid.centroid)));
+    hull->face_offsets_.push_back(
+        static_cast<Real>(plane.offset + dot(plane.normal, solid.centroid)));
   }
   hull->interior_point_ = detail::to_public(detail::cast<Real>(solid.centroid));
   hull->inner_radius_ = static_cast<Real>(inner);

@@ -8,8 +8,8 @@
 namespace plumb::inline PLUMB_ABI::detail {
 
 struct ManifoldPoint {
-  Vec position;           // [m] midway between the two surfaces; world axes, from A's reference point
-  Real separation;        // [m] along the normal; negative when the shapes overlap
+  Vec position;     // [m] midway between the two surfaces; world axes, from A's reference point
+  Real separation;  // [m] along the normal; negative when the shapes overlap
   std::uint32_t feature;  // names the pair of features that met, stable from step to step
 };
 

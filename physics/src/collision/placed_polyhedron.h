@@ -8,7 +8,8 @@ namespace plumb::inline PLUMB_ABI::detail {
 
 class PlacedPolyhedron {
  public:
-  // Point x of the shape's frame stands at R x + t. The arrays are not initialised beyond the counts.
+  // Point x of the shape's frame stands at R x + t. The arrays are not initialised beyond the
+  // counts.
   PlacedPolyhedron(const CollisionShape& shape, const NumMatrix& R, NumVec t);
 
   struct Edge {
@@ -26,8 +27,12 @@ class PlacedPolyhedron {
     return {vertices_[e.v0], vertices_[e.v1]};
   }
   [[nodiscard]] NumVec centre() const { return centre_; }
-  [[nodiscard]] Num inner_radius() const { return inner_radius_; }  // [m] of a ball about it, inside
-  [[nodiscard]] Num outer_radius() const { return outer_radius_; }  // [m] of a ball about it, around
+  [[nodiscard]] Num inner_radius() const {
+    return inner_radius_;
+  }  // [m] of a ball about it, inside
+  [[nodiscard]] Num outer_radius() const {
+    return outer_radius_;
+  }  // [m] of a ball about it, around
 
   [[nodiscard]] int support_index(NumVec d) const {
     int farthest = 0;

@@ -7,16 +7,16 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-// A direction in which two polyhedra were compared. The faces are those to lay over one another: the
-// reference face and the one that faces it, or those beside two crossing edges.
+// A direction in which two polyhedra were compared. The faces are those to lay over one another:
+// the reference face and the one that faces it, or those beside two crossing edges.
 struct ContactAxis {
   enum class Kind { FaceOfA, FaceOfB, Edges };
   Kind kind;
   NumVec normal;   // unit, from A to B
   Num separation;  // [m] of the shapes along it
   int face_a, face_b;
-  Segment edge_a, edge_b;       // only for Edges
-  FeatureName name_a, name_b;   // only for Edges
+  Segment edge_a, edge_b;      // only for Edges
+  FeatureName name_a, name_b;  // only for Edges
 };
 
 // Halfway between the supporting lines of two edges.
@@ -24,25 +24,30 @@ void add_edge_contact(const ContactAxis& axis, Contacts& out);
 // Whether the closest points of the two lines lie within both edges (to round-off).
 bool edges_cross(const ContactAxis& axis);
 
-// A and B give, in one frame: face(index, FacePolygon&), face_facing(d), support_index(d), vertex(i).
+// A and B give, in one frame: face(index, FacePolygon&), face_facing(d), support_index(d),
+// vertex(i).
 template <class A, class B>
 struct PolyhedronContact {
   const A& a;
   const B& b;
-  Num margin;     // [m]
-  Num thickness;  // [m] half thickness of the thinner one: the scale of the tolerances
-  Num size;       // [m] of the larger one
+  Num margin;      // [m]
+  Num thickness;   // [m] half thickness of the thinner one: the scale of the tolerances
+  Num size;        // [m] of the larger one
   NumVec towards;  // from about the middle of A to that of B
   Contacts& out;
 
-  // `preferred` is `best` or not much worse. A face contact counts only if its deepest point is as deep
-  // as the best axis says: a face beside which the shapes meet has points that lie farther apart.
+  // `preferred` is `best` or not much worse. A face contact counts only if its deepest point is as
+  // deep as the best axis says: a face beside which the shapes meet has points that lie farther
+  // apart.
   void along(const ContactAxis& preferred, const ContactAxis& best) {
     const bool apart = best.separation > Num(0);
     const Num slack = (apart ? kAttained : kFacePreference) * thickness;
     const Num limit = best.separation + slack;
-    if (overlay(preferred.normal, preferred.separation, preferred.face_a, preferred.face_b, limit)) return;
-    if (&preferred != &best && overlay(best.normal, best.separation, best.face_a, best.face_b, limit)) return;
+    if (overlay(preferred.normal, preferred.separation, preferred.face_a, preferred.face_b, limit))
+      return;
+    if (&preferred != &best &&
+        overlay(best.normal, best.separation, best.face_a, best.face_b, limit))
+      return;
     if (best.kind == ContactAxis::Kind::Edges && (!apart || edges_cross(best))) {
       add_edge_contact(best, out);
       return;
@@ -64,8 +69,8 @@ struct PolyhedronContact {
     }
     ContactCandidates candidates;
     candidates.count = 0;
-    const Num smallest =
-        overlay_faces(polygon_a, polygon_b, normal, separation, kClipBand * thickness, margin, candidates);
+    const Num smallest = overlay_faces(polygon_a, polygon_b, normal, separation,
+                                       kClipBand * thickness, margin, candidates);
     if (!(smallest <= limit)) return false;
     if (candidates.count > 0) choose_points(candidates, normal, kDeepestTie * thickness, out);
     return true;

@@ -18,8 +18,8 @@ inline Num closest_parameter(const Segment& s, NumVec point) {
   return std::clamp(dot(point - s.start, d) / squared, Num(0), Num(1));
 }
 
-// Parameters of a closest pair of points on two segments [Ericson 2005, 5.1.9]. Parallel segments have
-// many; the one found lies at an end of the part that they share.
+// Parameters of a closest pair of points on two segments [Ericson 2005, 5.1.9]. Parallel segments
+// have many; the one found lies at an end of the part that they share.
 struct SegmentParameters {
   Num a, b;
 };

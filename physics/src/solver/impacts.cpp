@@ -245,7 +245,7 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
     };
     Point& p = points[count++];
     p = {arm(A), arm(B), 0, 0, 0, 0, 0, i};
-    if (row.both_dynamic && !row.exact_spheres) {  // one common point keeps the angular momentum
+    if (row.both_dynamic) {  // one common point keeps the angular momentum
       const Vec apart = row.between + world.delta[row.body_b].dp - world.delta[row.body_a].dp +
                         t * (B.v - A.v) - (Real(0.5) * t * t) * (impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a)) +
                         p.rb - p.ra;
@@ -330,7 +330,8 @@ void share_with_contact_solver(Impacts& impacts) {
       closing_at_end = std::max(closing_at_end, -(motion.v + a * h));
       gap_at_end = std::min(gap_at_end, motion.s + h * (motion.v + Real(0.5) * a * h));
     }
-    const bool left_by_bounce = row.bounces > 0 && closing_now < Real(0);
+    const bool left_by_bounce =
+        row.bounces > 0 && closing_now < Real(0) && (gap_at_end > Real(0) || closing_at_end < Real(0));
     // Not yet there, or too fast to be stopped: it bounces in a later substep. (The contact solver ends
     // a substep at v h + a h^2, half an a h^2 too deep, and would stop it just before it touches.)
     const bool will_bounce = !row.at_rest && row.bounces < tolerance::kMaxBouncesPerSubstep &&

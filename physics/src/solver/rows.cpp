@@ -81,6 +81,17 @@ void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, Real warm)
   }
 }
 
+// A contact sinks by g/w^2 under its load. For every size to sink the same fraction, w^2 must follow
+// g / thickness; the damping ratio follows it upwards, so that overlap is not worked off faster, only
+// held more stiffly: sequential impulses tremble when small bodies are pushed apart too eagerly.
+Softness contact_softness(const WorldState& world, Real thickness, bool against_fixed) {
+  const Real g = static_cast<Real>(world.settings.gravity.norm());
+  const Real pull = std::max(g / thickness, tolerance::kSlowestPull);
+  const Real stiffer = std::sqrt(pull / tolerance::kReferencePull);
+  const Real frequency = world.settings.contact_frequency * stiffer * (against_fixed ? tolerance::kStaticStiffness : Real(1));
+  return make_softness(frequency, world.settings.contact_damping_ratio * std::max(stiffer, Real(1)), world.h);
+}
+
 // Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points lie
 // nearly on a line, or a locked axis leaves nothing to solve for.
 constexpr Real kSolvable = Real(1e-5);
@@ -185,13 +196,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
 
   row.friction = pair.friction;
   row.restitution = pair.restitution;
-  // A contact sinks by g/w^2: to sink the same fraction of every size, small bodies need a higher
-  // frequency.
   const Real thickness = pair.slop / tolerance::kSlopFraction;
-  const Real frequency = world.settings.contact_frequency / std::sqrt(thickness) *
-                         (row.both_dynamic ? Real(1) : tolerance::kStaticStiffness);
-  const Softness softness =
-      make_softness(std::min(frequency, tolerance::kStiffestContact / world.h), world.settings.contact_damping_ratio, world.h);
+  const Softness softness = contact_softness(world, thickness, !row.both_dynamic);
   row.bias_rate = softness.bias_rate;
   row.mass_scale = softness.mass_scale;
   row.impulse_scale = softness.impulse_scale;

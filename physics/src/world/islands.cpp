@@ -144,7 +144,7 @@ void wake_around(WorldState& world, std::uint32_t body) {
     const AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
     world.moving_tree.query(tree.box(collider.proxy), [&](std::uint32_t other) {
       const std::uint32_t owner = world.colliders.info[other].body;
-      if (world.bodies.info[owner].island != kNone) sleepers.push_back(owner);
+      if (owner != body && world.bodies.info[owner].island != kNone) sleepers.push_back(owner);
     });
   }
   std::sort(sleepers.begin(), sleepers.end());

@@ -29,10 +29,10 @@ inline constexpr Real kPushRate = Real(2);
 // so that the ground yields last. [Catto 2024]
 inline constexpr Real kStaticStiffness = Real(2);
 
-// No contact is given a frequency above this many times the substep rate [-]. Far above 1/4, where a
-// spring would be unstable, because the damping is far above critical: at 4 a contact works off half
-// its overlap in a substep.
-inline constexpr Real kStiffestContact = Real(4);
+// The settings' contact frequency is that of a 1 m body under 9.81 m/s^2: of this g / thickness
+// [1/s^2]. Below the second value (weightless scenes, mountains) contacts get no softer.
+inline constexpr Real kReferencePull = Real(9.81);
+inline constexpr Real kSlowestPull = Real(1e-4);
 
 // In steps that begin with overlap above this many slops [-] the velocities are relaxed more often, so
 // that what pushes bodies apart does not throw them.

@@ -7,8 +7,8 @@ use re_log_types::{
     ApplicationId, BlueprintActivationCommand, LogMsg, StoreId, TimeInt, TimePoint, Timeline,
 };
 use re_sdk::blueprint::{
-    Blueprint, BlueprintActivation, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, Tabs,
-    TextDocumentView, TextLogView, TimePanel, TimeSeriesView, Vertical,
+    Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel,
+    Spatial3DView, Tabs, TextDocumentView, TextLogView, TimePanel, TimeSeriesView, Vertical,
 };
 use re_sdk_types::AsComponents;
 use re_sdk_types::blueprint::archetypes::{EyeControls3D, LineGrid3D};
@@ -171,6 +171,7 @@ impl Layout {
         let blueprint = Blueprint::new(root)
             .with_auto_views(false)
             .with_auto_layout(false)
+            .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Collapsed))
             .with_selection_panel(SelectionPanel::from_state(PanelState::Collapsed))
             .with_time_panel(
                 TimePanel::new()

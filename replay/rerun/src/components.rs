@@ -54,6 +54,7 @@ static KNOWN: LazyLock<HashMap<String, Known>> = LazyLock::new(|| {
         (Mesh3D::descriptor_albedo_factor(), U32, 1),
         (InstancePoses3D::descriptor_translations(), F32, 3),
         (InstancePoses3D::descriptor_quaternions(), F32, 4),
+        (InstancePoses3D::descriptor_scales(), F32, 3),
         (Points3D::descriptor_positions(), F32, 3),
         (Points3D::descriptor_radii(), F32, 1),
         (Points3D::descriptor_colors(), U32, 1),

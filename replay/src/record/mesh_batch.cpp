@@ -1,16 +1,19 @@
 #include "record/mesh_batch.h"
 
+#include <array>
+
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 namespace {
 
-enum PoseColumn : std::size_t { kTranslation, kQuaternion };
+enum PoseColumn : std::size_t { kTranslation, kQuaternion, kScale };
 
 void add_pose_columns(rrd::Table& table) {
   table.add_column<float>("InstancePoses3D:translations", 3);
   table.add_column<float>("InstancePoses3D:quaternions", 4);
+  table.add_column<float>("InstancePoses3D:scales", 3);
 }
 
 void send_mesh(rrd::Writer& writer, const std::string& entity, const VisualMesh& mesh,
@@ -72,13 +75,15 @@ void MeshBatch::add_instances(rrd::Table& table, const Frame& frame, bool awake)
                     table.column(kQuaternion).extend<float>(1));
     ++count;
   }
+  // Without any instance the viewer would draw the mesh once, at the origin: one of no size is not
+  // seen. One scale holds for all instances of a row.
+  const float scale = count == 0 ? 0.0f : 1.0f;
   if (count == 0) {
-    // Without any instance the viewer would draw the mesh once at the origin; one whose quaternion
-    // cannot be normalized is not drawn.
-    const float zeros[4] = {0, 0, 0, 0};
-    table.column(kTranslation).append(std::span<const float>(zeros, 3));
-    table.column(kQuaternion).append(std::span<const float>(zeros, 4));
+    const float at_origin[7] = {0, 0, 0, 0, 0, 0, 1};
+    table.column(kTranslation).append(std::span<const float>(at_origin, 3));
+    table.column(kQuaternion).append(std::span<const float>(at_origin + 3, 4));
   }
+  table.column(kScale).append(std::span<const float>(std::array{scale, scale, scale}));
   table.end_row(frame.number, frame.time);
 }
 

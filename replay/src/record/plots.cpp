@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "record/placed_part.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -15,7 +16,11 @@ void send_series(rrd::Writer& writer, const std::string& entity,
                  const std::vector<std::string>& names) {
   rrd::Table table(entity);
   const std::size_t column = table.add_text_column("SeriesLines:names");
-  for (const std::string& name : names) table.column(column).append_text(name);
+  const std::size_t colors = table.add_column<std::uint32_t>("SeriesLines:colors");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    table.column(column).append_text(names[i]);
+    table.column(colors).append_one(kBodyColors[i % kBodyColors.size()]);
+  }
   table.send_static(writer);
 }
 

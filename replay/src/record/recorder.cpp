@@ -1,5 +1,7 @@
 #include "plumb/replay/recorder.h"
 
+#include <time.h>
+
 #include <chrono>
 #include <exception>
 
@@ -55,20 +57,29 @@ class Recorder::Session {
 
 namespace {
 
+double thread_cpu_seconds() {
+  constexpr double kSecondsPerNanosecond = 1e-9;
+  timespec now{};
+  if (::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) return 0;
+  return static_cast<double>(now.tv_sec) + kSecondsPerNanosecond * static_cast<double>(now.tv_nsec);
+}
+
 // Adds the time between its making and its end.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  explicit Stopwatch(RecorderCost& cost) : cost_(cost) {}
   ~Stopwatch() {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
-    seconds_ += taken.count();
+    cost_.seconds += taken.count();
+    cost_.cpu_seconds += thread_cpu_seconds() - cpu_begin_;
   }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
-  double& seconds_;
+  RecorderCost& cost_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double cpu_begin_ = thread_cpu_seconds();
 };
 
 }  // namespace
@@ -95,7 +106,7 @@ detail::Frame Recorder::Session::frame_of(const PhysicsWorld& world) {
 
 void Recorder::Session::send_looks(const detail::Frame& frame) {
   extent_ = detail::extent_of(frame);
-  detail::send_layout(writer_, frame, extent_, options_);
+  detail::send_layout(writer_, extent_, options_);
   if (options_.contacts) contacts_.send_looks(writer_, frame, extent_);
   if (options_.plots) plots_.send_names(writer_);
 }
@@ -233,7 +244,7 @@ void Recorder::on_attach(const PhysicsWorld& world) {
 
 void Recorder::on_step(const StepView& view) {
   if (!session_) return;
-  const Stopwatch stopwatch(session_->cost_.seconds);
+  const Stopwatch stopwatch(session_->cost_);
   try {
     session_->step(view);
   } catch (const std::exception& error) {

@@ -6,7 +6,7 @@ namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 namespace {
 
-// Rerun's FillMode: what is solid is easier to read; what only senses is an outline.
+// Rerun's FillMode.
 constexpr std::uint8_t kOutline = 1, kSolid = 3;
 
 const char* archetype_of(Primitive primitive) {
@@ -19,7 +19,7 @@ const char* archetype_of(Primitive primitive) {
 }
 
 std::string entity_of(Primitive primitive, Role role) {
-  const char* roles[] = {"world/moving/", "world/static/", "world/sensors/"};
+  const char* roles[] = {"world/moving/", "world/static/", "world/outlines/"};
   const char* names[] = {"boxes", "spheres", "capsules"};
   return std::string(roles[static_cast<int>(role)]) + names[static_cast<int>(primitive)];
 }
@@ -73,7 +73,7 @@ void ShapeBatch::announce(rrd::Writer& writer, const Frame& frame) {
   if (parts_.empty() && !announced_) return;  // never had any
   announced_ = true;
   send(writer);  // rows with the old parts come first
-  sizes_.column(kFill).append_one(role_ == Role::Sensor ? kOutline : kSolid);
+  sizes_.column(kFill).append_one(role_ == Role::Outline ? kOutline : kSolid);
   for (const Eigen::Vector3f& size : part_sizes_) {
     if (primitive_ == Primitive::Capsule) {
       sizes_.column(kSize).append_one(2 * size[0]);

@@ -12,7 +12,8 @@ namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 
 enum class Primitive { Box, Sphere, Capsule };
-enum class Role { Moving, Static, Sensor };
+// Outlines are drawn of what would hide or be mistaken for the rest: sensors, towering walls.
+enum class Role { Moving, Static, Outline };
 
 class ShapeBatch {
  public:

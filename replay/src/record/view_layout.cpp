@@ -13,11 +13,6 @@ namespace {
 // whole scene in view, its depth visible.
 constexpr double kEyeRight = 1.1, kEyeUp = 0.8, kEyeFront = 1.9;
 
-Eigen::Vector3d up_axis(const PhysicsWorld& world) {
-  const Eigen::Vector3d gravity = world.settings().gravity.template cast<double>();
-  return gravity.norm() > 0 ? Eigen::Vector3d(-gravity.normalized()) : Eigen::Vector3d::UnitY();
-}
-
 // Rerun's directions are up 1, down 2, right 3, left 4, forward 5, back 6, for x, y, z.
 void send_axes(rrd::Writer& writer, const Eigen::Vector3d& up) {
   constexpr std::uint8_t kUp = 1, kRight = 3, kForward = 5, kBack = 6;
@@ -34,8 +29,7 @@ void copy_to(const Eigen::Vector3d& v, float (&out)[3]) {
 
 }  // namespace
 
-void send_layout(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent,
-                 const RecorderOptions& options) {
+void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options) {
   rrd::Layout layout;
   layout.timeline = rrd::kFrameTimeline;
   layout.frames_per_second = static_cast<float>(options.frames_per_second);
@@ -47,7 +41,7 @@ void send_layout(rrd::Writer& writer, const Frame& frame, const SceneExtent& ext
       {PLUMB_RR_VIEW_PLOT, "Overlap", "+ /plots/overlap", 3},
       {PLUMB_RR_VIEW_TEXT_LOG, "Plan and events", "+ /log", 4},
   };
-  const Eigen::Vector3d up = up_axis(frame.world);
+  const Eigen::Vector3d& up = extent.up;
   const Eigen::Vector3d aside = std::abs(up.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d front = aside.cross(up).normalized();
   const Eigen::Vector3d right = up.cross(front);

@@ -2,14 +2,12 @@
 #pragma once
 
 #include "plumb/replay/recorder.h"
-#include "record/frame.h"
 #include "record/visuals.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 
-void send_layout(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent,
-                 const RecorderOptions& options);
+void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options);
 
 }  // namespace replay::detail
 }  // namespace plumb::inline PLUMB_ABI

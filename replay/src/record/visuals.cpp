@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "rrd/writer.h"
@@ -41,11 +42,28 @@ double radius_of(const Shape& shape) {
   return std::visit(Visitor{}, shape);
 }
 
+Eigen::Vector3d up_axis(const PhysicsWorld& world) {
+  const Eigen::Vector3d gravity = world.settings().gravity.template cast<double>();
+  return gravity.norm() > 0 ? Eigen::Vector3d(-gravity.normalized()) : Eigen::Vector3d::UnitY();
+}
+
+// Whether a box rises above everything that moves: a wall that would hide it.
+bool towers(const Box& box, const LocalPose& X_BC, const BodyState& body,
+            const SceneExtent& extent) {
+  const Quat R_WC = body.pose.orientation * X_BC.orientation;
+  const Eigen::Vector3d center = body.pose.position.template cast<double>() +
+                                 (body.pose.orientation * X_BC.position).template cast<double>();
+  const Vec3 up_C = R_WC.conjugate() * extent.up.template cast<Real>();
+  const double reach = double{up_C.cwiseAbs().dot(box.half_extents)};
+  return center.dot(extent.up) + reach > extent.top;
+}
+
 }  // namespace
 
 SceneExtent extent_of(const Frame& frame) {
   Eigen::AlignedBox3d moving, all;
-  double radius_sum = 0;
+  const Eigen::Vector3d up = up_axis(frame.world);
+  double radius_sum = 0, top = -std::numeric_limits<double>::infinity();
   std::size_t count = 0;
   for (const BodyState& body : frame.bodies) {
     for (const ColliderId id : frame.world.colliders_of(body.id)) {
@@ -61,20 +79,26 @@ SceneExtent extent_of(const Frame& frame) {
       all.extend(box);
       if (body.type == MotionType::Static) continue;
       moving.extend(box);
+      top = std::max(top, center.dot(up) + radius);
       radius_sum += radius;
       ++count;
     }
   }
   const Eigen::AlignedBox3d& seen = moving.isEmpty() ? all : moving;
-  if (seen.isEmpty()) return {};
-  const double body_radius = count ? radius_sum / static_cast<double>(count) : 1;
-  return {seen.center(), seen.diagonal().norm() / 2, body_radius};
+  SceneExtent extent;
+  extent.up = up;
+  extent.top = count ? top : std::numeric_limits<double>::infinity();
+  if (seen.isEmpty()) return extent;
+  extent.center = seen.center();
+  extent.radius = seen.diagonal().norm() / 2;
+  if (count) extent.body_radius = radius_sum / static_cast<double>(count);
+  return extent;
 }
 
 Visuals::Visuals() {
   shapes_.reserve(kPrimitives * kRoles);
   for (const Primitive primitive : {Primitive::Box, Primitive::Sphere, Primitive::Capsule})
-    for (const Role role : {Role::Moving, Role::Static, Role::Sensor})
+    for (const Role role : {Role::Moving, Role::Static, Role::Outline})
       shapes_.emplace_back(primitive, role);
 }
 
@@ -146,7 +170,11 @@ void Visuals::rebuild(rrd::Writer& writer, const Frame& frame, const SceneExtent
     }
     for (const ColliderId id : frame.world.colliders_of(body.id)) {
       const Collider collider = frame.world.collider(id);
-      const Role role = collider.is_sensor ? Role::Sensor : is_static ? Role::Static : Role::Moving;
+      const auto* box = std::get_if<Box>(&collider.shape);
+      const bool hides = is_static && box && towers(*box, collider.pose, body, extent);
+      const Role role = collider.is_sensor || hides ? Role::Outline
+                        : is_static                 ? Role::Static
+                                                    : Role::Moving;
       PlacedPart colored = part;
       if (collider.is_sensor) colored.color = kSensorColor;
       add_collider(writer, collider, colored, role, extent);

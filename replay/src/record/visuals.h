@@ -18,6 +18,8 @@ struct SceneExtent {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // [m] of what moves
   double radius = 1;                                 // [m] around it
   double body_radius = 1;                            // [m] mean over what moves
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY();     // unit, against gravity
+  double top = 0;                                    // [m] highest point of what moves, along up
 };
 SceneExtent extent_of(const Frame& frame);
 

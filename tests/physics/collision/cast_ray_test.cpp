@@ -1,5 +1,5 @@
-// Invariant: the first hit of a ray lies on the surface, nothing of the ray before it is inside, the
-// normal is that of the surface, and a ray that starts inside hits at once.
+// Invariant: the first hit of a ray lies on the surface, nothing of the ray before it is inside,
+// the normal is that of the surface, and a ray that starts inside hits at once.
 #include <gtest/gtest.h>
 
 #include "collision/collide.h"
@@ -13,7 +13,9 @@ using oracle::Random;
 using oracle::V;
 
 constexpr double kEps = static_cast<double>(std::numeric_limits<Real>::epsilon());
-Vec inner(const V& v) { return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())}; }
+Vec inner(const V& v) {
+  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
 
 TEST(CastRay, HitsLieOnTheSurfaceAndNothingBeforeThemIsInside) {
   Random random(41);
@@ -21,14 +23,17 @@ TEST(CastRay, HitsLieOnTheSurfaceAndNothingBeforeThemIsInside) {
   for (int i = 0; i < 8000; ++i) {
     const double size = random.scale(1e-3, 1e4);
     const Real s = static_cast<Real>(size);
-    const Shape shapes[] = {Sphere{s}, Capsule{s, s / 2}, Box{Vec3(s, s / 2, s / 3)}, ConvexHull{oracle::prism(7, size, size / 2)}};
+    const Shape shapes[] = {Sphere{s}, Capsule{s, s / 2}, Box{Vec3(s, s / 2, s / 3)},
+                            ConvexHull{oracle::prism(7, size, size / 2)}};
     const CollisionShape shape = make_collision_shape(shapes[random.below(4)]);
     const Transform x{inner(2 * size * random.direction()), random.rotation()};
     const oracle::Solid solid = oracle::solid_of(shape, x);
     const Vec origin = inner(oracle::vec(x.p) + random.uniform(0, 4) * size * random.direction());
-    const Vec direction = inner(size * random.uniform(0.1, 8) * random.direction() + (oracle::vec(x.p) - oracle::vec(origin)));
+    const Vec direction = inner(size * random.uniform(0.1, 8) * random.direction() +
+                                (oracle::vec(x.p) - oracle::vec(origin)));
     const V o = oracle::vec(origin), d = oracle::vec(direction);
-    const double tolerance = 32 * kEps * size;  // of points up to 10 sizes out, planes of single precision
+    const double tolerance =
+        32 * kEps * size;  // of points up to 10 sizes out, planes of single precision
     SCOPED_TRACE(testing::Message() << "ray " << i << " size " << size);
     RayHit hit{};
     const bool is_hit = cast_ray(shape, x, origin, direction, 1, hit);
@@ -36,7 +41,8 @@ TEST(CastRay, HitsLieOnTheSurfaceAndNothingBeforeThemIsInside) {
     const double until = is_hit ? static_cast<double>(hit.fraction) : 1.0;
     for (int k = 0; k <= 64; ++k) {
       if (start < tolerance) break;
-      EXPECT_GT(signed_distance(V(o + until * k / 64 * d), solid), -tolerance - 2 * kEps * d.norm());
+      EXPECT_GT(signed_distance(V(o + until * k / 64 * d), solid),
+                -tolerance - 2 * kEps * d.norm());
     }
     if (!is_hit) {
       ++misses;
@@ -55,7 +61,8 @@ TEST(CastRay, HitsLieOnTheSurfaceAndNothingBeforeThemIsInside) {
       EXPECT_LE(n.dot(d), 0);
       // One small step against the normal is inside by as much, one along it outside.
       const double step = 1e-2 * size;
-      EXPECT_NEAR(signed_distance(V(o + until * d + step * n), solid), step, 2 * tolerance + 2 * kEps * d.norm());
+      EXPECT_NEAR(signed_distance(V(o + until * d + step * n), solid), step,
+                  2 * tolerance + 2 * kEps * d.norm());
     }
   }
   EXPECT_GT(hits, 1000);
@@ -88,7 +95,8 @@ TEST(CastRay, EndsAtTheLargestFractionAndTakesAxisParallelRays) {
 TEST(CastRay, AFarOriginCostsNoDigits) {
   const CollisionShape ball = make_collision_shape(Sphere{Real(1e-2)});
   RayHit hit{};
-  ASSERT_TRUE(cast_ray(ball, {{0, 0, 0}, {0, 0, 0, 1}}, {1000, Real(5e-3), 0}, {-1000, 0, 0}, 2, hit));
+  ASSERT_TRUE(
+      cast_ray(ball, {{0, 0, 0}, {0, 0, 0, 1}}, {1000, Real(5e-3), 0}, {-1000, 0, 0}, 2, hit));
   // The nearest point of the ray comes from coordinates of 1000 m in double, on a ball of 0.01 m.
   const double from_afar = 4 * std::numeric_limits<double>::epsilon() * 1000 / 1e-2;
   EXPECT_NEAR(static_cast<double>(hit.normal.y), 0.5, 4 * kEps + from_afar);

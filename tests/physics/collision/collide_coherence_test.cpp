@@ -1,5 +1,6 @@
-// Invariant: a small motion makes a small change. Within a feature the normal turns and the separation
-// moves by no more than the motion allows; points keep their names while bodies creep or rock.
+// Invariant: a small motion makes a small change. Within a feature the normal turns and the
+// separation moves by no more than the motion allows; points keep their names while bodies creep or
+// rock.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -46,9 +47,10 @@ TEST(CollideCoherence, PointsOfRestingShapesKeepTheirNamesWhileTheyCreep) {
       const CollisionShape *below, *above;
       Real angle;
     };
-    for (const Rest& rest : {Rest{&cube, &cube, 0}, Rest{&cube, &plank, 0}, Rest{&plank, &cube, Real(0.3)},
-                             Rest{&hexagon, &hexagon, 0}, Rest{&cube, &hexagon, Real(0.1)},
-                             Rest{&cube, &cube, Real(0.785398163)}}) {
+    for (const Rest& rest :
+         {Rest{&cube, &cube, 0}, Rest{&cube, &plank, 0}, Rest{&plank, &cube, Real(0.3)},
+          Rest{&hexagon, &hexagon, 0}, Rest{&cube, &hexagon, Real(0.1)},
+          Rest{&cube, &cube, Real(0.785398163)}}) {
       const Transform below{{0, 0, 0}, kUpright};
       const Rotation turn = from_rotation_vector(Vec{0, rest.angle, 0});
       const Transform above{{0, Real(1.999) * h, 0}, turn};
@@ -62,7 +64,8 @@ TEST(CollideCoherence, PointsOfRestingShapesKeepTheirNamesWhileTheyCreep) {
         const Transform moved{above.p + c.shift, from_rotation_vector(Real(0.2) * c.turn) * turn};
         Manifold m;
         ASSERT_TRUE(collide(*rest.below, below, *rest.above, moved, Real(0.01) * h, m));
-        EXPECT_EQ(names_of(m), names_of(first)) << "size " << size << " angle " << rest.angle << " count " << m.count;
+        EXPECT_EQ(names_of(m), names_of(first))
+            << "size " << size << " angle " << rest.angle << " count " << m.count;
         EXPECT_LT(length(m.normal - first.normal), Real(1e-4));  // not more than it was turned
       }
     }
@@ -74,7 +77,8 @@ TEST(CollideCoherence, TheLargerShapeGivesTheNormalOfARockingOne) {
   const CollisionShape floor = make_collision_shape(Box{Vec3(10, 1, 10)});
   const CollisionShape cube = make_collision_shape(Box{Vec3(1, 1, 1)});
   for (int i = -50; i <= 50; ++i) {
-    const Rotation tilt = from_rotation_vector(Vec{Real(2e-3) * static_cast<Real>(i), 0, Real(1e-3) * static_cast<Real>(i)});
+    const Rotation tilt = from_rotation_vector(
+        Vec{Real(2e-3) * static_cast<Real>(i), 0, Real(1e-3) * static_cast<Real>(i)});
     Manifold m;
     ASSERT_TRUE(collide(floor, {{0, 0, 0}, kUpright}, cube, {{0, 2, 0}, tilt}, Real(0.5), m));
     EXPECT_EQ(m.normal.y, Real(1));
@@ -87,7 +91,8 @@ TEST(CollideCoherence, TheLargerShapeGivesTheNormalOfARockingOne) {
 TEST(CollideCoherence, NormalsOfRoundedShapesFollowTheMotionAroundEdgesAndCorners) {
   const CollisionShape shapes[] = {make_collision_shape(Box{Vec3(1, Real(0.7), Real(0.4))}),
                                    make_collision_shape(ConvexHull{oracle::prism(5, 1, 0.5)})};
-  const CollisionShape others[] = {make_collision_shape(Sphere{Real(0.5)}), make_collision_shape(Capsule{Real(0.6), Real(0.5)})};
+  const CollisionShape others[] = {make_collision_shape(Sphere{Real(0.5)}),
+                                   make_collision_shape(Capsule{Real(0.6), Real(0.5)})};
   for (const CollisionShape& shape : shapes) {
     for (const CollisionShape& other : others) {
       Random random(11);
@@ -100,11 +105,13 @@ TEST(CollideCoherence, NormalsOfRoundedShapesFollowTheMotionAroundEdgesAndCorner
         constexpr int kSteps = 400;
         for (int i = 0; i <= kSteps; ++i) {
           const V p = from + (to - from) * (static_cast<double>(i) / kSteps);
-          const Transform moving{{static_cast<Real>(p.x()), static_cast<Real>(p.y()), static_cast<Real>(p.z())}, q};
+          const Transform moving{
+              {static_cast<Real>(p.x()), static_cast<Real>(p.y()), static_cast<Real>(p.z())}, q};
           Manifold m;
           const bool hit = collide(shape, fixed, other, moving, Real(0.3), m);
           double deepest = 1;
-          for (int k = 0; k < m.count; ++k) deepest = std::min(deepest, static_cast<double>(m.points[k].separation));
+          for (int k = 0; k < m.count; ++k)
+            deepest = std::min(deepest, static_cast<double>(m.points[k].separation));
           // While the cores are apart by 0.2 m the direction turns by at most step / distance.
           if (hit && had && deepest > -0.3) {
             const double step = (to - from).norm() / kSteps;
@@ -118,23 +125,26 @@ TEST(CollideCoherence, NormalsOfRoundedShapesFollowTheMotionAroundEdgesAndCorner
   }
 }
 
-// Whole manifolds: where the shapes meet in random poses, motion by d changes the least separation by at
-// most d (and what the preference for faces allows).
+// Whole manifolds: where the shapes meet in random poses, motion by d changes the least separation
+// by at most d (and what the preference for faces allows).
 TEST(CollideCoherence, SeparationMovesNoFartherThanTheShapes) {
   Random random(23);
   int compared = 0;
   for (int i = 0; i < 4000; ++i) {
     const bool hull = random.below(2) == 0;
     const CollisionShape a = make_collision_shape(Box{Vec3(1, 2, Real(1.5))});
-    const CollisionShape b = hull ? make_collision_shape(ConvexHull{oracle::prism(5, 1, 1)}) : make_collision_shape(Box{Vec3(1, 1, 1)});
+    const CollisionShape b = hull ? make_collision_shape(ConvexHull{oracle::prism(5, 1, 1)})
+                                  : make_collision_shape(Box{Vec3(1, 1, 1)});
     const V p = random.uniform(1, 3.5) * random.direction();
     const Transform xa{{0, 0, 0}, random.rotation()};
-    Transform xb{{static_cast<Real>(p.x()), static_cast<Real>(p.y()), static_cast<Real>(p.z())}, random.rotation()};
+    Transform xb{{static_cast<Real>(p.x()), static_cast<Real>(p.y()), static_cast<Real>(p.z())},
+                 random.rotation()};
     const auto least = [&](double& out) {
       Manifold m;
       if (!collide(a, xa, b, xb, Real(0.2), m)) return false;
       out = 1;
-      for (int k = 0; k < m.count; ++k) out = std::min(out, static_cast<double>(m.points[k].separation));
+      for (int k = 0; k < m.count; ++k)
+        out = std::min(out, static_cast<double>(m.points[k].separation));
       return true;
     };
     double before, after;
@@ -143,7 +153,8 @@ TEST(CollideCoherence, SeparationMovesNoFartherThanTheShapes) {
     xb.p += c.shift;
     if (!least(after)) continue;
     ++compared;
-    EXPECT_LE(std::abs(after - before), 1.001e-4 + 2 * (kFacePreference + kDeepestTie) + 64 * static_cast<double>(kEps));
+    EXPECT_LE(std::abs(after - before),
+              1.001e-4 + 2 * (kFacePreference + kDeepestTie) + 64 * static_cast<double>(kEps));
   }
   EXPECT_GT(compared, 1500);
 }

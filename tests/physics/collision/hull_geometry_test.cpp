@@ -1,5 +1,6 @@
-// Invariant: HullGeometry::create takes exactly the closed convex polyhedra, says what is wrong with
-// everything else, and what it derives (planes, edges, centroid, radii) is that of the polyhedron.
+// Invariant: HullGeometry::create takes exactly the closed convex polyhedra, says what is wrong
+// with everything else, and what it derives (planes, edges, centroid, radii) is that of the
+// polyhedron.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -15,13 +16,16 @@ constexpr Real kEps = std::numeric_limits<Real>::epsilon();
 struct Input {
   std::vector<Vec3> vertices;
   std::vector<std::uint32_t> sizes, loops;
-  [[nodiscard]] HullGeometry::Result create() const { return HullGeometry::create(vertices, sizes, loops); }
+  [[nodiscard]] HullGeometry::Result create() const {
+    return HullGeometry::create(vertices, sizes, loops);
+  }
 };
 
 Input cube(Real half, Vec3 centre = Vec3::Zero()) {
   Input in;
   for (int i = 0; i < 8; ++i) {
-    in.vertices.push_back(centre + half * Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1));
+    in.vertices.push_back(
+        centre + half * Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1));
   }
   in.sizes.assign(6, 4);
   in.loops = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
@@ -49,13 +53,15 @@ TEST(HullGeometry, ACubeHasItsPlanesEdgesAndRadii) {
     for (std::size_t k = 0; k < 6; ++k) {
       EXPECT_NEAR(hull.face_normals()[k].norm(), Real(1), 2 * kEps);
       for (const std::uint32_t v : hull.face(k)) {
-        EXPECT_NEAR(hull.face_normals()[k].dot(hull.vertices()[v]), hull.face_offsets()[k], 8 * kEps * half);
+        EXPECT_NEAR(hull.face_normals()[k].dot(hull.vertices()[v]), hull.face_offsets()[k],
+                    8 * kEps * half);
       }
       // Each side of a face is the edge that its place in the list names.
       for (std::size_t i = 0; i < 4; ++i) {
         const HullGeometry::Edge& e = hull.edges()[hull.face_edges(k)[i]];
         const std::uint32_t a = hull.face(k)[i], b = hull.face(k)[(i + 1) % 4];
-        EXPECT_TRUE((e.face_a == k && e.v0 == a && e.v1 == b) || (e.face_b == k && e.v0 == b && e.v1 == a));
+        EXPECT_TRUE((e.face_a == k && e.v0 == a && e.v1 == b) ||
+                    (e.face_b == k && e.v0 == b && e.v1 == a));
       }
     }
   }
@@ -68,7 +74,8 @@ TEST(HullGeometry, CentroidOfATetrahedronIsTheMeanOfItsCorners) {
   in.loops = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
   const auto result = in.create();
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  EXPECT_LT((result.hull->interior_point() - Vec3(Real(0.25), Real(0.5), Real(0.75))).norm(), 4 * kEps);
+  EXPECT_LT((result.hull->interior_point() - Vec3(Real(0.25), Real(0.5), Real(0.75))).norm(),
+            4 * kEps);
 }
 
 TEST(HullGeometry, UnevenFacesAreTakenToAThousandthOfTheWidthAndHeldByTheirPlanes) {

@@ -1,5 +1,5 @@
-// Invariant: the contact frame is orthonormal and right-handed for every normal, slanted or along an
-// axis, on both sides of the one plane where its formula changes sign.
+// Invariant: the contact frame is orthonormal and right-handed for every normal, slanted or along
+// an axis, on both sides of the one plane where its formula changes sign.
 #include <gtest/gtest.h>
 
 #include "math/vector3.h"
@@ -18,7 +18,8 @@ void expect_orthonormal(Vec n) {
   Eigen::Matrix3d frame;
   frame << oracle::vec(n), oracle::vec(t1), oracle::vec(t2);
   // The unit normal itself is rounded; each entry of the frame takes three roundings more.
-  EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 8 * kEps);
+  EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(),
+            8 * kEps);
   EXPECT_GT(frame.determinant(), 0.5);
 }
 
@@ -26,7 +27,8 @@ TEST(TangentFrame, IsOrthonormalForEveryNormal) {
   oracle::Random random(2);
   for (int i = 0; i < 100000; ++i) {
     const oracle::V v = random.direction();
-    expect_orthonormal({static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())});
+    expect_orthonormal(
+        {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())});
   }
   const Real tiny = std::numeric_limits<Real>::min();
   for (int axis = 0; axis < 3; ++axis) {

@@ -18,10 +18,10 @@ enum class Axis { X, Y, Z };
 
 struct ImportOptions {
   // Metres in one unit of the file [m] > 0. Unset: what the file or its format says, else 1.
-  std::optional<double> metres_per_unit;
+  std::optional<double> metres_per_unit = std::nullopt;
   // Which axis of the file points up. Unset: what the file or its format says, else it is taken to
   // be the world's up axis already.
-  std::optional<Axis> file_up;
+  std::optional<Axis> file_up = std::nullopt;
   Axis world_up = Axis::Y;
   std::uint64_t max_file_bytes = std::uint64_t{2} << 30;
   std::size_t max_triangles = 20'000'000;

@@ -23,9 +23,9 @@ struct MeshInspection {
 };
 
 struct InspectOptions {
-  ImportOptions import;
-  MassOptions mass;
-  HullOptions hull;
+  ImportOptions import = {};
+  MassOptions mass = {};
+  HullOptions hull = {};
   bool guarded = true;        // read in a child process (import_mesh_guarded)
   double time_limit = 60;     // [s] of the guarded reading
 };

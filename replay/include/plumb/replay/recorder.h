@@ -54,12 +54,14 @@ struct VisualMesh {
 
 // What recording costs the thread that steps the world; encoding and writing have their own.
 struct RecorderCost {
-  double seconds = 0;              // [s] inside the recorder's callbacks
+  double seconds = 0;              // [s] of the clock inside the recorder's callbacks
+  double cpu_seconds = 0;          // [s] of the processor, of the calling thread, in the same time
   std::uint64_t steps = 0;
   std::uint64_t body_steps = 0;    // sum over steps of the bodies in the world
 
-  [[nodiscard]] double seconds_per_body_step() const {  // [s]
-    return body_steps ? seconds / static_cast<double>(body_steps) : 0;
+  // [s] of the processor
+  [[nodiscard]] double seconds_per_body_step() const {
+    return body_steps ? cpu_seconds / static_cast<double>(body_steps) : 0;
   }
 };
 
