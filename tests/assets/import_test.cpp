@@ -190,6 +190,13 @@ TEST_F(ImportTest, LimitsAreKept) {
   EXPECT_TRUE(import_mesh(path, {.max_triangles = 12}).ok());
 }
 
+// No time at all is too little for any file: the child is ended and the limit is named.
+TEST_F(ImportTest, TimeLimitIsKept) {
+  const std::string path = write("box.obj", obj_box());
+  EXPECT_NE(import_mesh_guarded(path, {}, 1e-9).error().find("did not finish"), std::string::npos);
+  EXPECT_FALSE(import_mesh_guarded(path, {}, 0).ok());
+}
+
 TEST_F(ImportTest, GuardedReadingGivesTheSame) {
   const std::string path = write("box.dae", collada_box("0.01", "Z_UP", ""));
   const Imported plain = must(import_mesh(path)), guarded = must(import_mesh_guarded(path));

@@ -1,5 +1,5 @@
-// Proves, against Box2D 2.4.1, that friction decides the same way in both engines: stick or slip on a
-// slope, the sliding acceleration, the change from sliding to rolling.
+// Proves, against Box2D 2.4.1, that friction decides the same way in both engines: stick or slip on
+// a slope, the sliding acceleration, the change from sliding to rolling.
 #include <gtest/gtest.h>
 
 #include "box2d/planar_pair.h"
@@ -19,10 +19,12 @@ Slide slide(double mu) {
   PlanarPair pair;
   pair.add_ground({mu, 0}, -angle);
   const double hy = 0.1;
-  const auto body = pair.add_box(0.5, hy, {.x = hy * std::sin(angle), .y = hy * std::cos(angle),
-                                           .angle = -angle}, {mu, 0});
+  const auto body = pair.add_box(
+      0.5, hy, {.x = hy * std::sin(angle), .y = hy * std::cos(angle), .angle = -angle}, {mu, 0});
   pair.run_both(2);
-  const auto along = [&](const Planar& p) { return p.vx * std::cos(angle) - p.vy * std::sin(angle); };
+  const auto along = [&](const Planar& p) {
+    return p.vx * std::cos(angle) - p.vy * std::sin(angle);
+  };
   const Planar a = PlanarPair::theirs(body), b = pair.ours(body);
   return {a, b, along(a), along(b)};
 }
@@ -36,7 +38,8 @@ TEST(Box2dFriction, SlopeSticksAboveTheTangent) {
   EXPECT_NEAR(s.theirs.x, s.ours.x, 2 * kSkinGap);
 }
 
-// v = g (sin - mu cos) t; Box2D first lifts the box by its skin, which loads the contact for a moment.
+// v = g (sin - mu cos) t; Box2D first lifts the box by its skin, which loads the contact for a
+// moment.
 TEST(Box2dFriction, SlopeSlidesBelowTheTangent) {
   const double angle = 20 * kPi / 180, critical = std::tan(angle);
   for (double part : {0.0, 0.3, 0.6, 0.95}) {

@@ -1,5 +1,5 @@
-// Proves, against Box2D 2.4.1, that planar motion without resting contacts is the same in both engines
-// wherever both are exact, and that where they differ the closed form is on this side.
+// Proves, against Box2D 2.4.1, that planar motion without resting contacts is the same in both
+// engines wherever both are exact, and that where they differ the closed form is on this side.
 #include <gtest/gtest.h>
 
 #include "box2d/planar_pair.h"
@@ -58,8 +58,8 @@ TEST(Box2dMotion, ElasticHitOfUnequalDiscs) {
   }
 }
 
-// Apexes e^2 h, e^4 h. Box2D bounces at the end of the step in which it touches, with the speed it has
-// then: off by up to g h of 6.3 m/s, 5 % of the height; here the bounce has its own time.
+// Apexes e^2 h, e^4 h. Box2D bounces at the end of the step in which it touches, with the speed it
+// has then: off by up to g h of 6.3 m/s, 5 % of the height; here the bounce has its own time.
 TEST(Box2dMotion, BouncingDisc) {
   PlanarPair pair;
   const Surface bouncy{0, 0.8};

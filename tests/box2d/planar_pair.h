@@ -18,7 +18,7 @@ using namespace scenes;
 
 inline constexpr double kSkinGap =
     2 * static_cast<double>(b2_polygonRadius) - static_cast<double>(b2_linearSlop);  // [m] 0.015
-inline constexpr double kDt = 1.0 / 60;  // [s]
+inline constexpr double kDt = 1.0 / 60;                                              // [s]
 
 inline float f(double value) { return static_cast<float>(value); }
 
@@ -26,8 +26,8 @@ struct Surface {
   double friction = 0.6, restitution = 0;
 };
 struct Start {
-  double x = 0, y = 0, angle = 0;    // [m], [rad]
-  double vx = 0, vy = 0, spin = 0;   // [m/s], [rad/s]
+  double x = 0, y = 0, angle = 0;   // [m], [rad]
+  double vx = 0, vy = 0, spin = 0;  // [m/s], [rad/s]
 };
 // What is compared.
 struct Planar {
@@ -68,8 +68,9 @@ class PlanarPair {
     polygon.SetAsBox(f(hx), f(hy));
     Body body;
     body.theirs = create_theirs(polygon, start, surface, density);
-    body.ours = add(ours_, spec_of(start),
-                    with(box(hx, hy, 0.5), material(surface.friction, surface.restitution), density));
+    body.ours =
+        add(ours_, spec_of(start),
+            with(box(hx, hy, 0.5), material(surface.friction, surface.restitution), density));
     return body;
   }
 
@@ -84,7 +85,8 @@ class PlanarPair {
     mass.mass = density * kPi * radius * radius;
     mass.I_Bcm_B = Eigen::Matrix3d::Identity() * mass.mass * radius * radius / 2;
     spec.mass = mass;
-    body.ours = add(ours_, spec, with(sphere(radius), material(surface.friction, surface.restitution)));
+    body.ours =
+        add(ours_, spec, with(sphere(radius), material(surface.friction, surface.restitution)));
     return body;
   }
 
@@ -99,8 +101,10 @@ class PlanarPair {
 
   [[nodiscard]] static Planar theirs(const Body& body) {
     const b2Body& b = *body.theirs;
-    return {static_cast<double>(b.GetPosition().x), static_cast<double>(b.GetPosition().y),
-            static_cast<double>(b.GetAngle()), static_cast<double>(b.GetLinearVelocity().x),
+    return {static_cast<double>(b.GetPosition().x),
+            static_cast<double>(b.GetPosition().y),
+            static_cast<double>(b.GetAngle()),
+            static_cast<double>(b.GetLinearVelocity().x),
             static_cast<double>(b.GetLinearVelocity().y),
             static_cast<double>(b.GetAngularVelocity())};
   }

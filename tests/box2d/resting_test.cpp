@@ -16,7 +16,8 @@ TEST(Box2dResting, StackOfTenStands) {
   PlanarPair pair;
   pair.add_ground();
   std::vector<PlanarPair::Body> boxes;
-  for (int i = 0; i < 10; ++i) boxes.push_back(pair.add_box(0.5, 0.5, {.y = 0.5 + 1.02 * i + 0.01}));
+  for (int i = 0; i < 10; ++i)
+    boxes.push_back(pair.add_box(0.5, 0.5, {.y = 0.5 + 1.02 * i + 0.01}));
   pair.run_both(10);
   for (std::size_t i = 0; i < 10; ++i) {
     const Planar a = PlanarPair::theirs(boxes[i]), b = pair.ours(boxes[i]);

@@ -168,6 +168,8 @@ TEST_F(Program, RecordsAndVerifies) {
   const Outcome run = plumb("run " + kScenes + "stack_of_ten.json --steps 90 -o " + recording);
   ASSERT_EQ(run.code, 0) << run.output;
   EXPECT_TRUE(says(run, "bytes a body and frame")) << run.output;
+  EXPECT_FALSE(says(run, " 0.0 bytes")) << run.output;
+  EXPECT_FALSE(says(run, "cost 0.000 us")) << run.output;
   EXPECT_GT(fs::file_size(recording), 0u);
   EXPECT_EQ(files(), 1u);  // nothing is left beside it
 

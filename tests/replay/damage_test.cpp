@@ -88,7 +88,8 @@ TEST(MalformedFile, IsNamedWithItsReason) {
   };
   EXPECT_TRUE(mentions(error_for(""), "too short"));
   EXPECT_TRUE(mentions(error_for("RRF2"), "too short"));
-  EXPECT_TRUE(mentions(error_for("{\"this\": \"is a scene, not a recording\"}"), "not a recording"));
+  EXPECT_TRUE(
+      mentions(error_for("{\"this\": \"is a scene, not a recording\"}"), "not a recording"));
   EXPECT_TRUE(mentions(error_for(std::string(4096, '\0')), "not a recording"));
 
   const auto missing = replay::verify(folder.file("none.rrd")).outcome.error;
@@ -208,8 +209,8 @@ TEST(FullDisk, IsReportedAtOnceAndTheWorldGoesOn) {
   EXPECT_EQ(world.state_hash(), free_world.state_hash());
 }
 
-// A disk that fills up while the run goes on (here: a limit on the size of files) costs the rest of the
-// recording only: what was written before is whole, and closing does not wait for the disk.
+// A disk that fills up while the run goes on (here: a limit on the size of files) costs the rest of
+// the recording only: what was written before is whole, and closing does not wait for the disk.
 TEST(FullDisk, LeavesWhatWasWrittenBeforeReadable) {
   const TemporaryFolder folder;
   const std::string path = folder.file("full.rrd");
@@ -258,7 +259,8 @@ TEST(Options, OutOfRangeAreRefused) {
   }
 }
 
-// What follows a restore is not what the recorded inputs lead to, so recording ends there, and says it.
+// What follows a restore is not what the recorded inputs lead to, so recording ends there, and says
+// it.
 TEST(Recorder, StopsWhenItsWorldIsRestored) {
   const TemporaryFolder folder;
   const std::string path = folder.file("run.rrd");

@@ -40,7 +40,9 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string file(const std::string& name) const {
+    return (folder_ / name).string();
+  }
   [[nodiscard]] std::string path() const { return folder_.string(); }
 
  private:
@@ -52,8 +54,9 @@ inline void act_between_steps(PhysicsWorld& world, std::vector<BodyId>& bodies, 
   if (step == 7) {
     EXPECT_TRUE(world.apply_impulse(bodies[1], Vec3(40, 5, 0)).ok());
   }
-  if (step == 20) bodies.push_back(scenes::add(world, scenes::body_at(scenes::at(0.3, 9, 0.2)),
-                                               scenes::with(scenes::sphere(0.4))));
+  if (step == 20)
+    bodies.push_back(scenes::add(world, scenes::body_at(scenes::at(0.3, 9, 0.2)),
+                                 scenes::with(scenes::sphere(0.4))));
   if (step == 33) {
     EXPECT_TRUE(world.destroy_body(bodies[0]).ok());
   }
@@ -63,8 +66,7 @@ inline void act_between_steps(PhysicsWorld& world, std::vector<BodyId>& bodies, 
 }
 
 // Records `steps` steps; the recorder is closed on return.
-inline void record_run(const std::string& path, int steps,
-                       replay::RecorderOptions options = {}) {
+inline void record_run(const std::string& path, int steps, replay::RecorderOptions options = {}) {
   options.path = path;
   PhysicsWorld world;
   std::vector<BodyId> bodies = scenes::build_stack(world, {.count = 5, .shift = 0.1}).bodies;
@@ -116,8 +118,13 @@ inline void rewrite(const std::string& from, const std::string& to,
   rrd::Writer writer;
   ASSERT_TRUE(writer.open(to, "plumb", "rewritten").ok());
   const auto read = rrd::read(from, rrd::schema::kPrefix, [&](const rrd::Cell& cell) {
-    EditableCell copy{std::string(cell.entity()), std::string(cell.component()), cell.frame(),
-                      cell.type(), cell.width(), {}, {}};
+    EditableCell copy{std::string(cell.entity()),
+                      std::string(cell.component()),
+                      cell.frame(),
+                      cell.type(),
+                      cell.width(),
+                      {},
+                      {}};
     const auto keep = [&](auto numbers) {
       const auto bytes = std::as_bytes(numbers);
       copy.bytes.assign(bytes.begin(), bytes.end());
@@ -133,11 +140,21 @@ inline void rewrite(const std::string& from, const std::string& to,
 
     rrd::Table table(copy.entity);
     switch (copy.type) {
-      case PLUMB_RR_F32: write_numbers<float>(table, copy); break;
-      case PLUMB_RR_F64: write_numbers<double>(table, copy); break;
-      case PLUMB_RR_U8: write_numbers<std::uint8_t>(table, copy); break;
-      case PLUMB_RR_U32: write_numbers<std::uint32_t>(table, copy); break;
-      case PLUMB_RR_U64: write_numbers<std::uint64_t>(table, copy); break;
+      case PLUMB_RR_F32:
+        write_numbers<float>(table, copy);
+        break;
+      case PLUMB_RR_F64:
+        write_numbers<double>(table, copy);
+        break;
+      case PLUMB_RR_U8:
+        write_numbers<std::uint8_t>(table, copy);
+        break;
+      case PLUMB_RR_U32:
+        write_numbers<std::uint32_t>(table, copy);
+        break;
+      case PLUMB_RR_U64:
+        write_numbers<std::uint64_t>(table, copy);
+        break;
       case PLUMB_RR_TEXT: {
         const std::size_t at = table.add_text_column(copy.component);
         for (const std::string& text : copy.texts) table.column(at).append_text(text);

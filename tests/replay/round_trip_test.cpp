@@ -1,5 +1,5 @@
-// What is written is what is read: every bit of every number, every byte of every text, every row in
-// its order and with its time.
+// What is written is what is read: every bit of every number, every byte of every text, every row
+// in its order and with its time.
 #include <array>
 #include <bit>
 #include <limits>
@@ -119,7 +119,8 @@ TEST(RoundTrip, KeepsRowsOfDifferentLengthInTheirOrder) {
   EXPECT_EQ(next, kRows);
 }
 
-// Components are checked where they are written, so that no file holds what a viewer would not show.
+// Components are checked where they are written, so that no file holds what a viewer would not
+// show.
 TEST(RoundTrip, RefusesWhatIsNoComponent) {
   const TemporaryFolder folder;
   const auto error_of = [&](const std::string& component, auto number, std::uint32_t width) {

@@ -1,5 +1,5 @@
-// A recording alone suffices to do the run again, bit by bit; and a recording that is not true to its
-// run is caught at the step where it begins to lie.
+// A recording alone suffices to do the run again, bit by bit; and a recording that is not true to
+// its run is caught at the step where it begins to lie.
 #include "recorded_run.h"
 
 namespace plumb {
@@ -37,7 +37,10 @@ TEST(Verify, NothingToLookAtIsNeeded) {
   const TemporaryFolder folder;
   const std::string path = folder.file("bare.rrd");
   record_run(path, kSteps,
-             {.visuals = false, .contacts = false, .body_states = false, .plots = false,
+             {.visuals = false,
+              .contacts = false,
+              .body_states = false,
+              .plots = false,
               .text_log = false});
   EXPECT_TRUE(replay::verify(path).identical());
 }

@@ -18,9 +18,8 @@ class InputRecorder : public StepObserver {
     std::uint64_t hash = 0;
   };
   void on_step(const StepView& view) override {
-    frames.push_back({{view.inputs.begin(), view.inputs.end()},
-                      view.report.dt,
-                      view.world.state_hash()});
+    frames.push_back(
+        {{view.inputs.begin(), view.inputs.end()}, view.report.dt, view.world.state_hash()});
   }
   std::vector<Frame> frames;
 };

@@ -1,5 +1,5 @@
-// Scenes shared by tests, benchmarks and demos: one builder each, parametrised, so that a picture, a
-// time and a proof are about the same thing. Every builder fills a world that the caller has made
+// Scenes shared by tests, benchmarks and demos: one builder each, parametrised, so that a picture,
+// a time and a proof are about the same thing. Every builder fills a world that the caller has made
 // (settings are the caller's) and returns the handles that matter, in the order of building.
 #pragma once
 
@@ -18,17 +18,19 @@ using namespace testing_support;
 // A floor of finite size, its top at height y.
 inline BodyId add_slab(PhysicsWorld& world, double half_x, double half_z,
                        const Material& surface = {}, double y = 0) {
-  return add(world, body_at(at(0, y - 1, 0), MotionType::Static), with(box(half_x, 1, half_z), surface));
+  return add(world, body_at(at(0, y - 1, 0), MotionType::Static),
+             with(box(half_x, 1, half_z), surface));
 }
 
-// --- stacks ----------------------------------------------------------------------------------------
+// --- stacks
+// ----------------------------------------------------------------------------------------
 struct Stack {
   int count = 10;
-  double half = 0.5;        // [m] half edge of each cube
-  double gap = 0;           // [m] between neighbours; negative: overlap
-  double shift = 0;         // [m] sideways, alternating +-
-  double density = 1000;    // [kg/m^3] of the lowest cube
-  double growth = 1;        // density of each cube over that of the one below
+  double half = 0.5;      // [m] half edge of each cube
+  double gap = 0;         // [m] between neighbours; negative: overlap
+  double shift = 0;       // [m] sideways, alternating +-
+  double density = 1000;  // [kg/m^3] of the lowest cube
+  double growth = 1;      // density of each cube over that of the one below
   Material surface = {};
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();  // [m] point of the floor below the stack
 };
@@ -52,11 +54,12 @@ inline Built build_stack(PhysicsWorld& world, const Stack& stack = {}) {
   return built;
 }
 
-// --- pyramid ---------------------------------------------------------------------------------------
+// --- pyramid
+// ---------------------------------------------------------------------------------------
 struct Pyramid {
   int base = 10;
-  double half = 0.5;       // [m]
-  double pitch = 1.05;     // [-] distance of neighbours in a row over their edge
+  double half = 0.5;    // [m]
+  double pitch = 1.05;  // [-] distance of neighbours in a row over their edge
   Material surface = {};
 };
 
@@ -76,14 +79,16 @@ inline Built build_pyramid(PhysicsWorld& world, const Pyramid& pyramid = {}) {
   return built;
 }
 
-// --- slope -----------------------------------------------------------------------------------------
+// --- slope
+// -----------------------------------------------------------------------------------------
 struct Slope {
-  double angle = kPi / 6;      // [rad] from the horizontal, falling towards +x
+  double angle = kPi / 6;  // [rad] from the horizontal, falling towards +x
   double friction = 0.5;
   Shape shape = cube(0.5);
-  double height = 0.5;         // [m] of the shape's centre above the slope when it touches
+  double height = 0.5;  // [m] of the shape's centre above the slope when it touches
   std::optional<MassProperties> mass = {};
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();  // [m] on the slope, down the slope is x, z level
+  Eigen::Vector3d start =
+      Eigen::Vector3d::Zero();  // [m] on the slope, down the slope is x, z level
 };
 struct OnSlope {
   BodyId ground, body;
@@ -106,7 +111,8 @@ inline OnSlope build_slope(PhysicsWorld& world, const Slope& slope = {}) {
   return built;
 }
 
-// --- cradle ----------------------------------------------------------------------------------------
+// --- cradle
+// ----------------------------------------------------------------------------------------
 struct Cradle {
   int count = 5;
   int moving = 1;          // so many balls at the left end come in together
@@ -129,9 +135,10 @@ inline std::vector<BodyId> build_cradle(PhysicsWorld& world, const Cradle& cradl
   return balls;
 }
 
-// --- many bodies -----------------------------------------------------------------------------------
+// --- many bodies
+// -----------------------------------------------------------------------------------
 struct Pile {
-  int side = 16;              // side^3 bodies
+  int side = 16;  // side^3 bodies
   std::uint32_t seed = 2;
 };
 
@@ -155,10 +162,10 @@ inline Built build_pile(PhysicsWorld& world, const Pile& pile = {}) {
         const double y = 1 + 1.5 * j + random.uniform(-0.05, 0.05);
         const double a = random.uniform(0, 1), b = random.uniform(0, 1), d = random.uniform(0, 1);
         const Quat q = random.rotation(0.3);
-        const Shape shape =
-            counter % 3 == 0   ? Shape(box(0.35 + 0.15 * a, 0.35 + 0.15 * b, 0.35 + 0.15 * d))
-            : counter % 3 == 1 ? Shape(sphere(0.4 + 0.15 * a))
-                               : Shape(capsule(0.25 + 0.1 * b, 0.25 + 0.1 * a));
+        const Shape shape = counter % 3 == 0
+                                ? Shape(box(0.35 + 0.15 * a, 0.35 + 0.15 * b, 0.35 + 0.15 * d))
+                            : counter % 3 == 1 ? Shape(sphere(0.4 + 0.15 * a))
+                                               : Shape(capsule(0.25 + 0.1 * b, 0.25 + 0.1 * a));
         built.bodies.push_back(add(world, body_at(at({x, y, z}, q)), with(shape)));
       }
   return built;
@@ -211,15 +218,16 @@ inline Built build_spread(PhysicsWorld& world, int count, double pitch = 2) {
   const double middle = (columns - 1) / 2.0, half = columns * pitch;
   built.ground = add_slab(world, half, half);
   for (int c = 0; c < count; ++c)
-    built.bodies.push_back(add(
-        world, body_at(at((c % columns - middle) * pitch, 0.5, (c / columns - middle) * pitch)),
-        with(cube(0.5))));
+    built.bodies.push_back(
+        add(world, body_at(at((c % columns - middle) * pitch, 0.5, (c / columns - middle) * pitch)),
+            with(cube(0.5))));
   return built;
 }
 
-// --- bouncing --------------------------------------------------------------------------------------
-// side x side elastic balls without friction, 0.1 m and 10 kg each, 5 m above a floor.
-// [Kang and Hwangbo 2018]
+// --- bouncing
+// -------------------------------------------------------------------------------------- side x
+// side elastic balls without friction, 0.1 m and 10 kg each, 5 m above a floor. [Kang and Hwangbo
+// 2018]
 inline Built build_bouncing(PhysicsWorld& world, int side = 7) {
   Built built;
   const Material surface = material(0, 1);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -113,6 +114,19 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+// Whether a file that begins as PLY lacks the line that ends its header: assimp 5.2 then reads for
+// ever. Empty text if all is well.
+std::string cut_off_header(const std::string& path) {
+  constexpr std::size_t kMostHeader = std::size_t{1} << 20;  // [byte] far above any real header
+  std::ifstream file(path, std::ios::binary);
+  std::string head(3, '\0');
+  file.read(head.data(), 3);
+  if (head != "ply" && head != "PLY") return {};
+  head.assign(kMostHeader, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find("end_header") == std::string::npos ? "the PLY header has no end_header line; the file is cut off" : "";
+}
+
 Result<Imported> read(const std::string& path, const ImportOptions& options) {
   const auto failure = [&](const std::string& text) { return Error{"'" + path + "': " + text}; };
   if (options.metres_per_unit && !(*options.metres_per_unit > 0 && std::isfinite(*options.metres_per_unit))) {
@@ -127,6 +141,8 @@ Result<Imported> read(const std::string& path, const ImportOptions& options) {
     return failure("it has " + std::to_string(bytes) + " bytes, more than max_file_bytes = " +
                    std::to_string(options.max_file_bytes));
   }
+
+  if (const std::string fault = cut_off_header(path); !fault.empty()) return failure(fault);
 
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);

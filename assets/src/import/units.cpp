@@ -57,6 +57,22 @@ std::optional<T> metadata(const aiScene& scene, const char* key) {
   return std::nullopt;
 }
 
+// A number that went through a float: seven digits give back the one that the file has.
+double as_written(double through_float) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.7g", through_float);
+  return std::strtod(digits, nullptr);
+}
+
+// In centimetres; assimp hands it out as float or double, depending on its version.
+std::optional<double> fbx_unit(const aiScene& scene) {
+  std::optional<double> unit = metadata<double>(scene, "UnitScaleFactor");
+  if (!unit) {
+    if (const auto single = metadata<float>(scene, "UnitScaleFactor")) unit = as_written(static_cast<double>(*single));
+  }
+  return unit && *unit > 0 && std::isfinite(*unit) ? unit : std::nullopt;
+}
+
 // FBX names three signed axes; their exchange into right, up, front is the matrix to y-up axes.
 std::optional<Matrix3d> fbx_axes(const aiScene& scene, ImportReport& report) {
   constexpr std::array<std::array<const char*, 2>, 3> kKeys{
@@ -80,13 +96,10 @@ std::optional<Matrix3d> fbx_axes(const aiScene& scene, ImportReport& report) {
   return m;
 }
 
-// Collada's reader puts unit and up axis into the root node; this is the unit it used. It went
-// through a float: seven digits give back the number that the file has.
+// Collada's reader puts unit and up axis into the root node; this is the unit it used.
 double collada_unit(const aiScene& scene) {
   const aiMatrix4x4& root = scene.mRootNode->mTransformation;
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.7g", std::cbrt(std::abs(static_cast<double>(root.Determinant()))));
-  return std::strtod(digits, nullptr);
+  return as_written(std::cbrt(std::abs(static_cast<double>(root.Determinant()))));
 }
 
 }  // namespace
@@ -100,7 +113,7 @@ Result<Matrix3d> to_world(const aiScene& scene, const std::string& extension, co
   report.file_up = options.world_up;
 
   if (extension == "fbx") {
-    if (const auto factor = metadata<double>(scene, "UnitScaleFactor"); factor && *factor > 0 && std::isfinite(*factor)) {
+    if (const auto factor = fbx_unit(scene)) {
       scale = *factor * kCentimetre;
       report.metres_per_unit = scale;
       report.unit_origin = Origin::File;

@@ -1,6 +1,7 @@
 #include "scene/read_parts.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace plumb::inline PLUMB_ABI::assets::scene {
@@ -136,9 +137,9 @@ bool read_orientation(const ObjectReader& parent, Eigen::Quaterniond& orientatio
                             "write a unit quaternion [x, y, z, w]; no rotation is [0, 0, 0, 1]");
       return false;
     }
-    // Kept as it is if it is as near to unit length as rounding lets it be, so that a quaternion
-    // that was written out comes back with the same bits.
-    constexpr double kRounding = 4e-16;
+    // Kept as it is if it is as near to unit length as the rounding of its four numbers lets it be,
+    // so that a quaternion that was written out comes back with the same bits.
+    constexpr double kRounding = 4 * static_cast<double>(std::numeric_limits<Real>::epsilon());
     orientation = std::abs(q.squaredNorm() - 1) <= kRounding ? q : q.normalized();
     return true;
   }

@@ -16,7 +16,7 @@ enum ExitCode : int {
 struct RunOptions {
   std::string scene;
   std::string output;  // empty: nothing is recorded
-  std::optional<std::uint64_t> steps;
+  std::optional<std::int64_t> steps;  // >= 0
   std::optional<double> dt;  // [s]
   std::optional<int> substeps;
   int threads = 1;  // 0: as many as the machine has

@@ -1,5 +1,6 @@
 // The `plumb` program: command line, help and exit codes.
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -21,12 +22,14 @@ constexpr const char* kRecording = "built without recording";
 #endif
 
 constexpr int kMostThreads = 256;
+constexpr std::int64_t kMostSteps = 1'000'000'000'000;  // years of computing: beyond is a slip
 
 void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
   CLI::App* run = app.add_subcommand("run", "Simulate a scene; record it with -o");
   run->add_option("SCENE", options.scene, "Scene file (JSON)")->required();
   run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file");
-  run->add_option("--steps", options.steps, "Number of steps instead of the scene's duration");
+  run->add_option("--steps", options.steps, "Number of steps instead of the scene's duration")
+      ->check(CLI::Range(std::int64_t{0}, kMostSteps));
   run->add_option("--dt", options.dt, "Length of a step in seconds instead of the scene's");
   run->add_option("--substeps", options.substeps, "Solver steps within one step (1 to 64)");
   run->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")

@@ -16,6 +16,7 @@ struct RecordingFile::State {
   replay::Recorder recorder;
   std::string path, partial;
   std::uint64_t bytes = 0;
+  replay::RecorderCost cost;  // kept, because a closed recorder has none
 };
 
 std::string RecordingFile::open(const std::string& path, const assets::Scene& scene,
@@ -46,6 +47,7 @@ std::string RecordingFile::problem() const { return state_ ? state_->recorder.st
 
 std::string RecordingFile::finish(PhysicsWorld& world) {
   world.detach(&state_->recorder);
+  state_->cost = state_->recorder.cost();
   if (const auto closed = state_->recorder.close(); !closed.ok()) {
     return closed.error + "; what there is of it is in " + state_->partial;
   }
@@ -59,12 +61,12 @@ std::string RecordingFile::finish(PhysicsWorld& world) {
 }
 
 std::uint64_t RecordingFile::bytes() const { return state_ ? state_->bytes : 0; }
-double RecordingFile::seconds() const { return state_ ? state_->recorder.cost().seconds : 0; }
+double RecordingFile::seconds() const { return state_ ? state_->cost.seconds : 0; }
 double RecordingFile::seconds_per_body_step() const {
-  return state_ ? state_->recorder.cost().seconds_per_body_step() : 0;
+  return state_ ? state_->cost.seconds_per_body_step() : 0;
 }
 std::uint64_t RecordingFile::body_steps() const {
-  return state_ ? state_->recorder.cost().body_steps : 0;
+  return state_ ? state_->cost.body_steps : 0;
 }
 
 #else

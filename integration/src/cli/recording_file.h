@@ -25,7 +25,8 @@ class RecordingFile {
   std::string finish(PhysicsWorld& world);
 
   [[nodiscard]] bool is_open() const;
-  [[nodiscard]] std::uint64_t bytes() const;            // of the finished file
+  // Of the finished file.
+  [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] double seconds() const;                 // [s] taken from the stepping thread
   [[nodiscard]] double seconds_per_body_step() const;   // [s]
   [[nodiscard]] std::uint64_t body_steps() const;

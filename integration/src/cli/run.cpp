@@ -72,7 +72,8 @@ int run_scene(const RunOptions& options) {
     complain(wrong);
     return kBadInput;
   }
-  const std::uint64_t steps = options.steps.value_or(scene.step.count());
+  const std::uint64_t steps =
+      options.steps ? static_cast<std::uint64_t>(*options.steps) : scene.step.count();
   if (options.steps) scene.step.duration = static_cast<double>(steps) * scene.step.dt;
 
   const std::unique_ptr<JobSystem> jobs = options.threads == 1 ? nullptr : make_thread_pool(options.threads);

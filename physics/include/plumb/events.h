@@ -20,10 +20,10 @@ struct ContactEvent {
 struct HitEvent {
   ColliderId a, b;
   BodyId body_a, body_b;
-  Pos3 point = Pos3::Zero();       // [m] world
-  Vec3 normal = Vec3::UnitY();     // from A to B
-  Real approach_speed = 0;         // [m/s] > 0
-  Real impulse = 0;                // [N s]
+  Pos3 point = Pos3::Zero();    // [m] world
+  Vec3 normal = Vec3::UnitY();  // from A to B
+  Real approach_speed = 0;      // [m/s] > 0
+  Real impulse = 0;             // [N s]
 };
 
 struct SensorEvent {
@@ -51,14 +51,14 @@ struct Events {
 // A touching pair as it stands after the step.
 struct ContactState {
   struct Point {
-    Pos3 position = Pos3::Zero();  // [m] world
-    Real separation = 0;           // [m] negative: overlap
-    Real normal_impulse = 0;       // [N s] over the whole step, >= 0
+    Pos3 position = Pos3::Zero();          // [m] world
+    Real separation = 0;                   // [m] negative: overlap
+    Real normal_impulse = 0;               // [N s] over the whole step, >= 0
     Vec3 friction_impulse = Vec3::Zero();  // [N s] on B, over the whole step, world axes
   };
   ColliderId a, b;
   BodyId body_a, body_b;
-  Vec3 normal = Vec3::UnitY();     // from A to B
+  Vec3 normal = Vec3::UnitY();  // from A to B
   int point_count = 0;
   Point points[4];
 };

@@ -9,8 +9,8 @@
 
 namespace plumb::inline PLUMB_ABI {
 
-// One per mutating call of PhysicsWorld. The numbers of each kind stand in inputs.cpp beside the code
-// that writes and reads them. Values are never reused; new ones are added at the end.
+// One per mutating call of PhysicsWorld. The numbers of each kind stand in inputs.cpp beside the
+// code that writes and reads them. Values are never reused; new ones are added at the end.
 enum class InputKind : std::uint32_t {
   CreateBody = 1,
   DestroyBody,
@@ -35,8 +35,8 @@ const char* name_of(InputKind kind);
 
 struct InputRecord {
   InputKind kind = InputKind::ApplyForce;
-  std::uint64_t target = 0;      // Id::value() of the body or collider; 0 where there is none
-  std::vector<double> numbers;   // exact: float and 32-bit integers pass through double unchanged
+  std::uint64_t target = 0;     // Id::value() of the body or collider; 0 where there is none
+  std::vector<double> numbers;  // exact: float and 32-bit integers pass through double unchanged
   friend bool operator==(const InputRecord&, const InputRecord&) = default;
 };
 

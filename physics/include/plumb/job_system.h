@@ -1,5 +1,5 @@
-// The one hook through which a world uses threads. An engine passes its own scheduler; the pool that
-// comes with Plumb will do otherwise.
+// The one hook through which a world uses threads. An engine passes its own scheduler; the pool
+// that comes with Plumb will do otherwise.
 #pragma once
 
 #include <cstdint>

@@ -14,14 +14,15 @@
 namespace plumb::inline PLUMB_ABI {
 
 struct MassProperties {
-  double mass = 0;                                          // [kg] > 0
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();         // [m] centre of mass, in B
-  Eigen::Matrix3d I_Bcm_B = Eigen::Matrix3d::Zero();        // [kg m^2] about the centre, axes B
+  double mass = 0;                                    // [kg] > 0
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();   // [m] centre of mass, in B
+  Eigen::Matrix3d I_Bcm_B = Eigen::Matrix3d::Zero();  // [kg m^2] about the centre, axes B
 
   // Mass properties of this body and another one rigidly joined to it, both given in B.
   [[nodiscard]] MassProperties plus(const MassProperties& other) const;
   // The same body seen from frame A, with B placed in A.
-  [[nodiscard]] MassProperties placed(const Eigen::Vector3d& p_AB, const Eigen::Quaterniond& R_AB) const;
+  [[nodiscard]] MassProperties placed(const Eigen::Vector3d& p_AB,
+                                      const Eigen::Quaterniond& R_AB) const;
   // Inertia about another point of B (parallel-axis theorem), axes B.
   [[nodiscard]] Eigen::Matrix3d inertia_about(const Eigen::Vector3d& p_B) const;
   // Same shape and density distribution with another total mass.
@@ -42,7 +43,8 @@ Status check(const MassProperties& properties);
 // Formulas: any table of moments of inertia; each is checked by a test against sums over particles.
 namespace inertia_of {
 MassProperties point(double mass, const Eigen::Vector3d& at);
-MassProperties particles(std::span<const double> masses, std::span<const Eigen::Vector3d> positions);
+MassProperties particles(std::span<const double> masses,
+                         std::span<const Eigen::Vector3d> positions);
 MassProperties solid_sphere(double mass, double radius);
 MassProperties hollow_sphere(double mass, double radius);  // thin shell
 MassProperties ellipsoid(double mass, const Eigen::Vector3d& semi_axes);
@@ -51,15 +53,18 @@ MassProperties rod(double mass, double length);                      // thin, al
 MassProperties disc(double mass, double radius);                     // thin, axis y
 MassProperties plate(double mass, double width_x, double width_z);   // thin, normal y
 MassProperties cylinder(double mass, double radius, double height);  // axis y
-MassProperties tube(double mass, double inner_radius, double outer_radius, double height);  // axis y
-MassProperties cone(double mass, double radius, double height);      // axis y, base at y = 0, apex at +height
-MassProperties capsule(double mass, double radius, double half_length);  // axis y
+MassProperties tube(double mass, double inner_radius, double outer_radius,
+                    double height);  // axis y
+MassProperties cone(double mass, double radius,
+                    double height);  // axis y, base at y = 0, apex at +height
+MassProperties capsule(double mass, double radius, double half_length);     // axis y
 MassProperties torus(double mass, double ring_radius, double tube_radius);  // axis y
 MassProperties tetrahedron(double mass, const std::array<Eigen::Vector3d, 4>& corners);
-MassProperties octahedron(double mass, double edge);                 // regular
+MassProperties octahedron(double mass, double edge);  // regular
 }  // namespace inertia_of
 
-// Of a collision shape filled with a uniform density [kg/m^3] > 0. A half-space has none (BadShape).
+// Of a collision shape filled with a uniform density [kg/m^3] > 0. A half-space has none
+// (BadShape).
 struct ShapeMass {
   MassProperties properties;
   Status status;

@@ -10,8 +10,8 @@ namespace plumb::inline PLUMB_ABI {
 enum class CombineRule : std::uint8_t { Average, GeometricMean, Minimum, Maximum, Multiply };
 
 struct Material {
-  Real friction = Real(0.6);     // Coulomb coefficient [-] >= 0, finite
-  Real restitution = Real(0);    // normal velocity kept by a bounce [-] 0..1
+  Real friction = Real(0.6);   // Coulomb coefficient [-] >= 0, finite
+  Real restitution = Real(0);  // normal velocity kept by a bounce [-] 0..1
   // Where two colliders name different rules, the one that stands later in CombineRule wins.
   CombineRule friction_rule = CombineRule::GeometricMean;
   CombineRule restitution_rule = CombineRule::Maximum;

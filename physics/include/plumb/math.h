@@ -18,14 +18,14 @@ using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
 
 // A body's placement in the world.
 struct Pose {
-  Pos3 position = Pos3::Zero();             // [m] world
-  Quat orientation = Quat::Identity();      // R_WB, unit
+  Pos3 position = Pos3::Zero();         // [m] world
+  Quat orientation = Quat::Identity();  // R_WB, unit
 };
 
 // A placement relative to a body.
 struct LocalPose {
-  Vec3 position = Vec3::Zero();             // [m] body frame
-  Quat orientation = Quat::Identity();      // R_BC, unit
+  Vec3 position = Vec3::Zero();         // [m] body frame
+  Quat orientation = Quat::Identity();  // R_BC, unit
 };
 
 // Axis-aligned box in world axes.

@@ -13,10 +13,10 @@ class PhysicsWorld;
 
 // Valid during the call only.
 struct StepView {
-  const PhysicsWorld& world;                 // after the step; copy_body_states(), copy_contacts(), ...
+  const PhysicsWorld& world;  // after the step; copy_body_states(), copy_contacts(), ...
   const StepReport& report;
   const Events& events;
-  std::span<const InputRecord> inputs;       // given since the previous step, in order, before this one
+  std::span<const InputRecord> inputs;  // given since the previous step, in order, before this one
 };
 
 class StepObserver {

@@ -26,21 +26,21 @@ inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::Count
 const char* name_of(Stage stage);
 
 struct StepReport {
-  Status status;                // not ok: the step was refused and nothing changed
-  std::uint64_t step = 0;       // number of this step, the first is 1
-  double time = 0;              // [s] simulated since the world was made, after this step
-  double dt = 0;                // [s]
+  Status status;           // not ok: the step was refused and nothing changed
+  std::uint64_t step = 0;  // number of this step, the first is 1
+  double time = 0;         // [s] simulated since the world was made, after this step
+  double dt = 0;           // [s]
 
-  std::uint32_t bodies = 0;             // all of them
-  std::uint32_t awake_bodies = 0;       // dynamic or moving kinematic ones that were stepped
-  std::uint32_t candidate_pairs = 0;    // bounds overlap
-  std::uint32_t touching_pairs = 0;     // manifold with at least one point
+  std::uint32_t bodies = 0;           // all of them
+  std::uint32_t awake_bodies = 0;     // dynamic or moving kinematic ones that were stepped
+  std::uint32_t candidate_pairs = 0;  // bounds overlap
+  std::uint32_t touching_pairs = 0;   // manifold with at least one point
   std::uint32_t contact_points = 0;
-  std::uint32_t islands = 0;            // awake ones; 0 when sleeping is off
+  std::uint32_t islands = 0;  // awake ones; 0 when sleeping is off
   std::uint32_t colors = 0;
-  std::uint32_t impacts = 0;            // bounces handled at their own time within the step
-  std::uint32_t continuous = 0;         // pairs kept apart only by the look-ahead for fast bodies
-  double largest_penetration = 0;       // [m] >= 0, at the start of the step
+  std::uint32_t impacts = 0;       // bounces handled at their own time within the step
+  std::uint32_t continuous = 0;    // pairs kept apart only by the look-ahead for fast bodies
+  double largest_penetration = 0;  // [m] >= 0, at the start of the step
 
   // Bodies whose state became non-finite: put back to their last valid pose, disabled, reported.
   std::uint32_t quarantined = 0;
@@ -51,11 +51,12 @@ struct StepReport {
 
 // Mechanical energy and momentum of all dynamic bodies, summed in double.
 struct EnergyReport {
-  double kinetic_linear = 0;    // [J]
-  double kinetic_angular = 0;   // [J]
-  double potential = 0;         // [J] in the uniform gravity, zero at the world's origin
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          // [kg m/s]
-  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  // [kg m^2/s] about the world's origin
+  double kinetic_linear = 0;   // [J]
+  double kinetic_angular = 0;  // [J]
+  double potential = 0;        // [J] in the uniform gravity, zero at the world's origin
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  // [kg m/s]
+  Eigen::Vector3d angular_momentum =
+      Eigen::Vector3d::Zero();  // [kg m^2/s] about the world's origin
 
   [[nodiscard]] double total() const { return kinetic_linear + kinetic_angular + potential; }
 };

@@ -1,5 +1,5 @@
-// What a user may choose for a world. Everything has a unit, a default and a reason; tolerances that
-// nobody should have to choose live in src/world/tolerances.h.
+// What a user may choose for a world. Everything has a unit, a default and a reason; tolerances
+// that nobody should have to choose live in src/world/tolerances.h.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ struct WorldSettings {
 
   RotationMethod rotation = RotationMethod::Exact;
 
-  bool warm_starting = true;   // begin from the last step's impulses; off only to show what it buys
-  bool sleeping = true;        // islands at rest stop costing anything
+  bool warm_starting = true;  // begin from the last step's impulses; off only to show what it buys
+  bool sleeping = true;       // islands at rest stop costing anything
   Real time_to_sleep = Real(0.5);  // [s] >= 0 that every body of an island must have been at rest
-  bool profiling = false;      // fill StepReport::stage_seconds
+  bool profiling = false;          // fill StepReport::stage_seconds
 };
 
 // Whether every number is finite and in its range.

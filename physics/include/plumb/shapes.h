@@ -32,12 +32,12 @@ struct HalfSpace {
   Real offset = Real(0);        // [m]
 };
 
-// A closed convex polyhedron: vertices and outward polygon faces, checked once when it is made, then
-// shared by any number of colliders. Hulls of points are built by plumb::assets.
+// A closed convex polyhedron: vertices and outward polygon faces, checked once when it is made,
+// then shared by any number of colliders. Hulls of points are built by plumb::assets.
 class HullGeometry {
  public:
   struct Edge {
-    std::uint32_t v0, v1;        // vertices; face_a has the edge as v0 -> v1
+    std::uint32_t v0, v1;  // vertices; face_a has the edge as v0 -> v1
     std::uint32_t face_a, face_b;
   };
 
@@ -54,18 +54,25 @@ class HullGeometry {
   [[nodiscard]] const std::vector<Vec3>& vertices() const { return vertices_; }
   [[nodiscard]] std::size_t face_count() const { return face_normals_.size(); }
   [[nodiscard]] std::span<const std::uint32_t> face(std::size_t k) const {
-    return std::span(face_vertices_).subspan(face_starts_[k], face_starts_[k + 1] - face_starts_[k]);
+    return std::span(face_vertices_)
+        .subspan(face_starts_[k], face_starts_[k + 1] - face_starts_[k]);
   }
   // The edges of a face: the k-th joins its k-th vertex to the next.
   [[nodiscard]] std::span<const std::uint32_t> face_edges(std::size_t k) const {
     return std::span(face_edges_).subspan(face_starts_[k], face_starts_[k + 1] - face_starts_[k]);
   }
-  [[nodiscard]] const std::vector<Vec3>& face_normals() const { return face_normals_; }    // outward, unit
-  [[nodiscard]] const std::vector<Real>& face_offsets() const { return face_offsets_; }    // [m]
+  [[nodiscard]] const std::vector<Vec3>& face_normals() const {
+    return face_normals_;
+  }  // outward, unit
+  [[nodiscard]] const std::vector<Real>& face_offsets() const { return face_offsets_; }  // [m]
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  [[nodiscard]] const Vec3& interior_point() const { return interior_point_; }             // [m] centroid
-  [[nodiscard]] Real inner_radius() const { return inner_radius_; }  // [m] distance centroid to nearest face
-  [[nodiscard]] Real outer_radius() const { return outer_radius_; }  // [m] distance centroid to farthest vertex
+  [[nodiscard]] const Vec3& interior_point() const { return interior_point_; }  // [m] centroid
+  [[nodiscard]] Real inner_radius() const {
+    return inner_radius_;
+  }  // [m] distance centroid to nearest face
+  [[nodiscard]] Real outer_radius() const {
+    return outer_radius_;
+  }  // [m] distance centroid to farthest vertex
 
  private:
   std::vector<Vec3> vertices_;

@@ -15,8 +15,8 @@ enum class StatusCode : unsigned char {
   BadMass,          // mass or inertia is not that of any body
   WrongMotionType,  // the call makes no sense for a static (or kinematic) body
   CapacityExceeded,
-  BadSnapshot,      // a snapshot does not fit this build or is damaged
-  InsideStep,       // called from an observer or a job while the world steps
+  BadSnapshot,  // a snapshot does not fit this build or is damaged
+  InsideStep,   // called from an observer or a job while the world steps
 };
 
 struct [[nodiscard]] Status {

@@ -35,9 +35,9 @@ struct WorldState;
 struct RayHitResult {
   ColliderId collider;
   BodyId body;
-  Pos3 point = Pos3::Zero();     // [m] world
-  Vec3 normal = Vec3::UnitY();   // unit, outward
-  Real fraction = 0;             // 0..1 along the ray
+  Pos3 point = Pos3::Zero();    // [m] world
+  Vec3 normal = Vec3::UnitY();  // unit, outward
+  Real fraction = 0;            // 0..1 along the ray
 };
 
 class PhysicsWorld {
@@ -60,17 +60,17 @@ class PhysicsWorld {
   // --- acting on bodies ------------------------------------------------------------------------
   // Forces and torques act throughout the next step and are then forgotten; impulses act at once.
   // All wake the body. Vectors in world axes; "at" a world point, "at_body_point" a point of B.
-  Status apply_force(BodyId body, const Vec3& force);                            // [N] at the centre of mass
-  Status apply_force_at(BodyId body, const Vec3& force, const Pos3& p_W);         // [N], [m]
+  Status apply_force(BodyId body, const Vec3& force);  // [N] at the centre of mass
+  Status apply_force_at(BodyId body, const Vec3& force, const Pos3& p_W);  // [N], [m]
   Status apply_force_at_body_point(BodyId body, const Vec3& force, const Vec3& p_B);
-  Status apply_torque(BodyId body, const Vec3& torque);                          // [N m]
-  Status apply_impulse(BodyId body, const Vec3& impulse);                        // [N s] at the centre of mass
+  Status apply_torque(BodyId body, const Vec3& torque);    // [N m]
+  Status apply_impulse(BodyId body, const Vec3& impulse);  // [N s] at the centre of mass
   Status apply_impulse_at(BodyId body, const Vec3& impulse, const Pos3& p_W);
   Status apply_impulse_at_body_point(BodyId body, const Vec3& impulse, const Vec3& p_B);
-  Status apply_angular_impulse(BodyId body, const Vec3& impulse);                // [N m s]
-  Status set_pose(BodyId body, const Pose& pose);                                // teleport
-  Status set_linear_velocity(BodyId body, const Vec3& velocity);                 // [m/s]
-  Status set_angular_velocity(BodyId body, const Vec3& velocity);                // [rad/s]
+  Status apply_angular_impulse(BodyId body, const Vec3& impulse);  // [N m s]
+  Status set_pose(BodyId body, const Pose& pose);                  // teleport
+  Status set_linear_velocity(BodyId body, const Vec3& velocity);   // [m/s]
+  Status set_angular_velocity(BodyId body, const Vec3& velocity);  // [rad/s]
   Status set_mass(BodyId body, const MassProperties& properties);
   Status set_awake(BodyId body, bool awake);  // putting to sleep takes the whole island
 
@@ -90,21 +90,23 @@ class PhysicsWorld {
   // For handles that are not valid these return default values.
   [[nodiscard]] BodyState state(BodyId body) const;
   [[nodiscard]] Pose pose(BodyId body) const;
-  [[nodiscard]] Vec3 linear_velocity(BodyId body) const;    // [m/s] of the centre of mass
-  [[nodiscard]] Vec3 angular_velocity(BodyId body) const;   // [rad/s] world axes
+  [[nodiscard]] Vec3 linear_velocity(BodyId body) const;   // [m/s] of the centre of mass
+  [[nodiscard]] Vec3 angular_velocity(BodyId body) const;  // [rad/s] world axes
   [[nodiscard]] Vec3 velocity_at(BodyId body, const Pos3& p_W) const;  // [m/s]
-  [[nodiscard]] Vec3 angular_momentum(BodyId body) const;   // [kg m^2/s] about its centre of mass
-  [[nodiscard]] Pos3 center_of_mass(BodyId body) const;     // [m] world
-  [[nodiscard]] Vec3 last_acceleration(BodyId body) const;  // [m/s^2] from forces and gravity in the last step
-  [[nodiscard]] MassProperties mass_properties(BodyId body) const;  // in the body frame; mass 0 for static
+  [[nodiscard]] Vec3 angular_momentum(BodyId body) const;  // [kg m^2/s] about its centre of mass
+  [[nodiscard]] Pos3 center_of_mass(BodyId body) const;    // [m] world
+  [[nodiscard]] Vec3 last_acceleration(
+      BodyId body) const;  // [m/s^2] from forces and gravity in the last step
+  [[nodiscard]] MassProperties mass_properties(
+      BodyId body) const;  // in the body frame; mass 0 for static
   [[nodiscard]] bool is_awake(BodyId body) const;
   [[nodiscard]] std::span<const ColliderId> colliders_of(BodyId body) const;
   [[nodiscard]] BodyId body_of(ColliderId collider) const;
   [[nodiscard]] Collider collider(ColliderId collider) const;
-  [[nodiscard]] RigidBody body(BodyId body) const;          // as it could be created again now
+  [[nodiscard]] RigidBody body(BodyId body) const;  // as it could be created again now
   [[nodiscard]] std::size_t body_count() const;
   [[nodiscard]] const WorldSettings& settings() const;
-  [[nodiscard]] double time() const;                        // [s]
+  [[nodiscard]] double time() const;  // [s]
   [[nodiscard]] std::uint64_t step_count() const;
 
   // In bulk, in order of their index; the vector is cleared first and keeps its storage.

@@ -1,4 +1,5 @@
-// The thread pool that comes with Plumb: fixed chunks taken from a counter, a bounded spin, then sleep.
+// The thread pool that comes with Plumb: fixed chunks taken from a counter, a bounded spin, then
+// sleep.
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -11,8 +12,8 @@
 namespace plumb::inline PLUMB_ABI {
 namespace {
 
-// How often an idle worker looks for work before it sleeps [-]: some 20 microseconds, about the time
-// between two parallel loops of a step. Longer would burn a core that the game needs.
+// How often an idle worker looks for work before it sleeps [-]: some 20 microseconds, about the
+// time between two parallel loops of a step. Longer would burn a core that the game needs.
 constexpr int kSpins = 2000;
 
 inline void pause_briefly() {
@@ -42,7 +43,8 @@ class ThreadPool final : public JobSystem {
     if (count == 0) return;
     grain = std::max(grain, 1u);
     if (workers_.empty() || count <= grain) {
-      for (std::uint32_t begin = 0; begin < count; begin += grain) task(begin, std::min(begin + grain, count));
+      for (std::uint32_t begin = 0; begin < count; begin += grain)
+        task(begin, std::min(begin + grain, count));
       return;
     }
     {

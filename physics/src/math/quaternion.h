@@ -12,10 +12,9 @@ struct Quaternion {
 
 template <class T>
 constexpr Quaternion<T> operator*(Quaternion<T> a, Quaternion<T> b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
-          a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+  return {
+      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 template <class T>
 constexpr Quaternion<T> conjugate(Quaternion<T> q) {
@@ -55,11 +54,21 @@ void sin_cos(T a, T& s, T& c) {
   const double turns = std::nearbyint(x0 * kTwoOverPi);
   const double x = (x0 - turns * kHalfPiHigh) - turns * kHalfPiLow;
   const double x2 = x * x;
-  const double sx = x * (1.0 + x2 * (-1.0 / 6 + x2 * (1.0 / 120 + x2 * (-1.0 / 5040 + x2 * (1.0 / 362880 +
-                    x2 * (-1.0 / 39916800 + x2 * (1.0 / 6227020800.0 - x2 / 1307674368000.0)))))));
-  const double cx = 1.0 + x2 * (-0.5 + x2 * (1.0 / 24 + x2 * (-1.0 / 720 + x2 * (1.0 / 40320 +
-                    x2 * (-1.0 / 3628800 + x2 * (1.0 / 479001600.0 +
-                    x2 * (-1.0 / 87178291200.0 + x2 / 20922789888000.0)))))));
+  const double sx =
+      x * (1.0 + x2 * (-1.0 / 6 +
+                       x2 * (1.0 / 120 +
+                             x2 * (-1.0 / 5040 +
+                                   x2 * (1.0 / 362880 +
+                                         x2 * (-1.0 / 39916800 + x2 * (1.0 / 6227020800.0 -
+                                                                       x2 / 1307674368000.0)))))));
+  const double cx =
+      1.0 +
+      x2 * (-0.5 + x2 * (1.0 / 24 +
+                         x2 * (-1.0 / 720 +
+                               x2 * (1.0 / 40320 + x2 * (-1.0 / 3628800 +
+                                                         x2 * (1.0 / 479001600.0 +
+                                                               x2 * (-1.0 / 87178291200.0 +
+                                                                     x2 / 20922789888000.0)))))));
   const long quadrant = static_cast<long>(turns) & 3;
   const double sv = (quadrant & 1) != 0 ? cx : sx, cv = (quadrant & 1) != 0 ? sx : cx;
   s = static_cast<T>((quadrant & 2) != 0 ? -sv : sv);
@@ -88,7 +97,9 @@ struct Transform {
   Rotation q;  // unit
 };
 inline Vec transform_point(const Transform& x, Vec v) { return rotate(x.q, v) + x.p; }
-inline Vec inverse_transform_point(const Transform& x, Vec v) { return inverse_rotate(x.q, v - x.p); }
+inline Vec inverse_transform_point(const Transform& x, Vec v) {
+  return inverse_rotate(x.q, v - x.p);
+}
 inline Transform operator*(const Transform& a, const Transform& b) {
   return {rotate(a.q, b.p) + a.p, a.q * b.q};
 }

@@ -5,7 +5,8 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// exp(-z) for z >= 0, spelled out so that every system gives the same bits: z = k ln 2 + r, Taylor in r.
+// exp(-z) for z >= 0, spelled out so that every system gives the same bits: z = k ln 2 + r, Taylor
+// in r.
 double exp_of_minus(double z) {
   constexpr double kLn2 = 0.69314718055994530942;
   if (z > 700) return 0;  // below the smallest normal double
@@ -21,7 +22,8 @@ double exp_of_minus(double z) {
 DampedMotion damped_motion(Real damping, Real h) {
   const double c = static_cast<double>(damping), step = static_cast<double>(h), z = c * step;
   if (z < 0.5) {
-    // (1 - e^-z)/z = sum (-z)^n/(n+1)!, (z - 1 + e^-z)/z^2 = sum (-z)^n/(n+2)!; 14 terms reach 1e-17.
+    // (1 - e^-z)/z = sum (-z)^n/(n+1)!, (z - 1 + e^-z)/z^2 = sum (-z)^n/(n+2)!; 14 terms reach
+    // 1e-17.
     double gain = 0, lift = 0;
     for (int n = 14; n >= 1; --n) {
       gain = (1 + gain) * (-z / (n + 1));

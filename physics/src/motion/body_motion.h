@@ -1,5 +1,5 @@
-// How one body moves: inertia in world axes, angular velocity from angular momentum, the kick by known
-// forces, and free flight.
+// How one body moves: inertia in world axes, angular velocity from angular momentum, the kick by
+// known forces, and free flight.
 #pragma once
 
 #include "motion/named_integrators.h"
@@ -34,7 +34,8 @@ inline Vec angular_momentum_of(const BodyMass& m, Rotation q, Vec w) {
   return rotate(q, multiply_each(m.moments, inverse_rotate(q, w)));
 }
 
-// Exact factors of x' = v, v' = a - c v over a time h: v1 = decay v0 + gain a, x1 - x0 = gain v0 + lift a.
+// Exact factors of x' = v, v' = a - c v over a time h: v1 = decay v0 + gain a, x1 - x0 = gain v0 +
+// lift a.
 struct DampedMotion {
   Real decay;  // exp(-c h)
   Real gain;   // [s] (1 - exp(-c h)) / c
@@ -42,8 +43,8 @@ struct DampedMotion {
 };
 DampedMotion damped_motion(Real damping, Real h);
 
-// Turns a body freely for a time h by the chosen method. L is the state; methods that do not keep it
-// (Book, ImplicitGyro) write theirs back.
+// Turns a body freely for a time h by the chosen method. L is the state; methods that do not keep
+// it (Book, ImplicitGyro) write theirs back.
 void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, Real h);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

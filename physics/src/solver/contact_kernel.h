@@ -13,10 +13,12 @@ struct RowVelocities {
   Vector3<T> arm_a, arm_b;
 };
 
-// The arms now. Two dynamic bodies act on each other at one common point, half-way between where each
-// has carried its own: only so do they keep their angular momentum, whatever they slid meanwhile.
+// The arms now. Two dynamic bodies act on each other at one common point, half-way between where
+// each has carried its own: only so do they keep their angular momentum, whatever they slid
+// meanwhile.
 template <class T>
-inline void place_arms(const ContactRow<T>& row, const BodyDelta& da, const BodyDelta& db, RowVelocities<T>& u) {
+inline void place_arms(const ContactRow<T>& row, const BodyDelta& da, const BodyDelta& db,
+                       RowVelocities<T>& u) {
   const Vector3<T> half = (row.both_dynamic ? T(0.5) : T(0)) * (db.dp - da.dp - row.advance);
   u.arm_a = row.arm_a + half;
   u.arm_b = row.arm_b - half;
@@ -24,7 +26,8 @@ inline void place_arms(const ContactRow<T>& row, const BodyDelta& da, const Body
 
 // Applies the wrench (force impulse P at c, torque impulse M) to B and its opposite to A.
 template <class T>
-inline void apply_wrench(const ContactRow<T>& row, Vector3<T> P, Vector3<T> M, RowVelocities<T>& u) {
+inline void apply_wrench(const ContactRow<T>& row, Vector3<T> P, Vector3<T> M,
+                         RowVelocities<T>& u) {
   u.va -= multiply_each(row.inverse_mass_a, P);
   u.wa -= row.inverse_inertia_a * (cross(u.arm_a, P) + M);
   u.vb += multiply_each(row.inverse_mass_b, P);
@@ -71,18 +74,20 @@ inline SeparationChange<T> separation_change(const ContactRow<T>& row, const Bod
   // n . (rotate(q, t) - t) = 2 (n.u)(t.u) + 2 w n.(u x t) for the delta rotation q = (u, w).
   const auto tilt = [&](const Rotation& q, Vector3<T> t) {
     const Vector3<T> u{q.x, q.y, q.z};
-    return T(2) * (dot(row.n, u) * dot(t, u) + q.w * dot(row.n, cross(u, t)) -
-                   dot(u, u) * dot(row.n, t));
+    return T(2) *
+           (dot(row.n, u) * dot(t, u) + q.w * dot(row.n, cross(u, t)) - dot(u, u) * dot(row.n, t));
   };
   return {dot(row.n, db.dp - da.dp) + tilt(db.dq, row.core_b) - tilt(da.dq, row.core_a),
           tilt(db.dq, row.t1) - tilt(da.dq, row.t1), tilt(db.dq, row.t2) - tilt(da.dq, row.t2)};
 }
 
 // All points at once, when every one of them presses: the impulses nearest to the present ones that
-// give every point its wanted velocity. Sequential impulses depend on the order of the points, which
-// tips a symmetric stack; this does not. Returns false, having changed nothing, when a point would pull.
+// give every point its wanted velocity. Sequential impulses depend on the order of the points,
+// which tips a symmetric stack; this does not. Returns false, having changed nothing, when a point
+// would pull.
 template <class T>
-inline bool solve_block(ContactRow<T>& row, const T* wanted, T mass_scale, T impulse_scale, T& p0, T& p1, T& p2) {
+inline bool solve_block(ContactRow<T>& row, const T* wanted, T mass_scale, T impulse_scale, T& p0,
+                        T& p1, T& p2) {
   T total[ContactRow<T>::kMaxPoints] = {};
   int k = 0;
   T change[ContactRow<T>::kMaxPoints] = {};
@@ -95,7 +100,8 @@ inline bool solve_block(ContactRow<T>& row, const T* wanted, T mass_scale, T imp
     k += ContactRow<T>::kMaxPoints - i;
   }
   for (int i = 0; i < row.count; ++i) {
-    total[i] = row.points[i].impulse + mass_scale * change[i] - impulse_scale * row.points[i].impulse;
+    total[i] =
+        row.points[i].impulse + mass_scale * change[i] - impulse_scale * row.points[i].impulse;
     if (total[i] < T(0)) return false;
   }
   for (int i = 0; i < row.count; ++i) {
@@ -111,8 +117,8 @@ inline bool solve_block(ContactRow<T>& row, const T* wanted, T mass_scale, T imp
 // Sweeps of sequential impulses over the points where they cannot be solved at once [-].
 inline constexpr int kPointSweeps = 2;
 
-// One pass over the normal rows. With `use_bias` overlap is worked off softly; without, the velocities
-// are only made not to approach (the relaxing pass) [Catto 2024].
+// One pass over the normal rows. With `use_bias` overlap is worked off softly; without, the
+// velocities are only made not to approach (the relaxing pass) [Catto 2024].
 template <class T>
 inline void solve_normal(ContactRow<T>& row, const SeparationChange<T>& change, T inverse_h,
                          bool use_bias, RowVelocities<T>& u) {
@@ -138,17 +144,20 @@ inline void solve_normal(ContactRow<T>& row, const SeparationChange<T>& change, 
     }
     wanted[i] = -(u0 + point.b * u1 - point.a * u2 + bias[i]);
   }
-  if (row.has_block && all_overlap && solve_block(row, wanted, mass_scale[0], impulse_scale[0], p0, p1, p2)) {
+  if (row.has_block && all_overlap &&
+      solve_block(row, wanted, mass_scale[0], impulse_scale[0], p0, p1, p2)) {
     apply_wrench(row, p0 * row.n, p1 * row.t1 + p2 * row.t2, u);
     return;
   }
-  // A soft row is a compromise between its target and its impulse: one sweep of it, more of the others.
+  // A soft row is a compromise between its target and its impulse: one sweep of it, more of the
+  // others.
   const int sweeps = use_bias || row.count == 1 ? 1 : kPointSweeps;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int i = 0; i < row.count; ++i) {
       auto& point = row.points[i];
       const T vn = u0 + point.b * u1 - point.a * u2;
-      const T step = -point.normal_mass * mass_scale[i] * (vn + bias[i]) - impulse_scale[i] * point.impulse;
+      const T step =
+          -point.normal_mass * mass_scale[i] * (vn + bias[i]) - impulse_scale[i] * point.impulse;
       const T total = std::max(point.impulse + step, T(0));
       const T l = total - point.impulse;
       point.impulse = total;
@@ -164,11 +173,11 @@ inline void solve_normal(ContactRow<T>& row, const SeparationChange<T>& change, 
   apply_wrench(row, p0 * row.n, p1 * row.t1 + p2 * row.t2, u);
 }
 
-// Coulomb friction on the true circular cone, point by point: if the impulse that stops the slip lies
-// inside the disc of radius mu * normal impulse it is taken (stick). Otherwise a projected step with
-// the larger eigenvalue of the response follows, whose fixed point opposes the slip exactly,
-// in every direction alike.
-// Returns the normal impulse that slides in `sliding`, and all of it in `load`.
+// Coulomb friction on the true circular cone, point by point: if the impulse that stops the slip
+// lies inside the disc of radius mu * normal impulse it is taken (stick). Otherwise a projected
+// step with the larger eigenvalue of the response follows, whose fixed point opposes the slip
+// exactly, in every direction alike. Returns the normal impulse that slides in `sliding`, and all
+// of it in `load`.
 template <class T>
 inline void solve_friction(ContactRow<T>& row, RowVelocities<T>& u, T& load, T& sliding) {
   const Vector3<T> v = relative_velocity(u);
@@ -190,7 +199,8 @@ inline void solve_friction(ContactRow<T>& row, RowVelocities<T>& u, T& load, T& 
       if (size > limit) {
         const T half_trace = T(0.5) * (point.k11 + point.k22);
         const T half_difference = T(0.5) * (point.k11 - point.k22);
-        const T k = half_trace + std::sqrt(half_difference * half_difference + point.k12 * point.k12);
+        const T k =
+            half_trace + std::sqrt(half_difference * half_difference + point.k12 * point.k12);
         f1 = point.friction1 - v1 / k;
         f2 = point.friction2 - v2 / k;
         const T slide = std::sqrt(f1 * f1 + f2 * f2);

@@ -1,14 +1,14 @@
 // One contact manifold as the solver sees it, in manifold space.
 //
-// All points of a manifold share the normal n. With c their centre, r = c - x the arms, and point i at
-// c + a_i t1 + b_i t2, three numbers carry everything about the relative motion along n:
+// All points of a manifold share the normal n. With c their centre, r = c - x the arms, and point i
+// at c + a_i t1 + b_i t2, three numbers carry everything about the relative motion along n:
 //
 //   u0 = n . (vB + wB x rB - vA - wA x rA)      u1 = t1 . (wB - wA)      u2 = t2 . (wB - wA)
 //   normal speed of point i:   vn_i = u0 + b_i u1 - a_i u2
 //
-// An impulse l at point i is the generalised impulse p = l (1, b_i, -a_i) and changes u by K p, K the
-// 3x3 response of both bodies. So the points are solved among three numbers; each body is read once
-// and written once. Friction is the same with
+// An impulse l at point i is the generalised impulse p = l (1, b_i, -a_i) and changes u by K p, K
+// the 3x3 response of both bodies. So the points are solved among three numbers; each body is read
+// once and written once. Friction is the same with
 //
 //   (x, y, z) = (t1 . vrel, t2 . vrel, n . wrel)      vt_i = (x - b_i z, y + a_i z)
 //
@@ -31,20 +31,21 @@ struct BodyDelta {
 
 // What a body in contact remembers within a step.
 struct SubstepBody {
-  Vec v_start{0, 0, 0};      // [m/s] after the previous substep
-  Vec L_start{0, 0, 0};      // [kg m^2/s]
-  Vec w_in{0, 0, 0};         // [rad/s] before the rows acted
-  Symmetric3<Real> I{};      // [kg m^2] world axes at the start of the step, as the rows see it
+  Vec v_start{0, 0, 0};  // [m/s] after the previous substep
+  Vec L_start{0, 0, 0};  // [kg m^2/s]
+  Vec w_in{0, 0, 0};     // [rad/s] before the rows acted
+  Symmetric3<Real> I{};  // [kg m^2] world axes at the start of the step, as the rows see it
   Symmetric3<Real> I_inverse{};
-  Vec acceleration{0, 0, 0};  // [m/s^2] from gravity and forces
+  Vec acceleration{0, 0, 0};        // [m/s^2] from gravity and forces
   Real load = 0, sliding_load = 0;  // [N s] normal impulse, and the part of it that slides
-  bool constrained = false;  // some row holds it
-  bool contacts_changed = false;  // the set of loaded points is not that of the last substep
-  bool bounced = false;      // in this substep
+  bool constrained = false;         // some row holds it
+  bool contacts_changed = false;    // the set of loaded points is not that of the last substep
+  bool bounced = false;             // in this substep
 };
 
 // Spring-like softness of a contact, from a frequency and a damping ratio [Catto 2024]:
-//   bias_rate = w/(2 z + h w), mass_scale = h w (2 z + h w)/(1 + h w (2 z + h w)), impulse_scale = 1 - mass_scale
+//   bias_rate = w/(2 z + h w), mass_scale = h w (2 z + h w)/(1 + h w (2 z + h w)), impulse_scale =
+//   1 - mass_scale
 struct Softness {
   Real bias_rate;      // [1/s]
   Real mass_scale;     // [-]
@@ -59,13 +60,13 @@ struct ContactRow {
   std::uint32_t pair = 0;                // index into the awake pairs
   int count = 0;
 
-  Vector3<T> n, t1, t2;          // n from A to B
-  Vector3<T> arm_a, arm_b;       // [m] from the centres of mass to c
-  Vector3<T> between;            // [m] from A's centre of mass to B's
-  Vector3<T> advance;            // [m] of B seen from A at which the arms were taken (swept pairs)
-  bool both_dynamic = false;     // then the arms follow the bodies to one common point
+  Vector3<T> n, t1, t2;       // n from A to B
+  Vector3<T> arm_a, arm_b;    // [m] from the centres of mass to c
+  Vector3<T> between;         // [m] from A's centre of mass to B's
+  Vector3<T> advance;         // [m] of B seen from A at which the arms were taken (swept pairs)
+  bool both_dynamic = false;  // then the arms follow the bodies to one common point
   // The part of the arms that turns with the bodies: a sphere's surface does not, it rolls.
-  Vector3<T> core_a, core_b;     // [m]
+  Vector3<T> core_a, core_b;                  // [m]
   Vector3<T> inverse_mass_a, inverse_mass_b;  // [1/kg] by world axis (locks make them differ)
   Symmetric3<T> inverse_inertia_a, inverse_inertia_b;
   Symmetric3<T> K_normal, K_friction;
@@ -74,29 +75,29 @@ struct ContactRow {
   bool has_block = false;
   T friction = T(0), restitution = T(0);
   T bias_rate = T(0), mass_scale = T(1), impulse_scale = T(0);
-  T push_speed = T(0);           // [m/s] limit of the velocity that works off overlap
-  T push_speed_now = T(0);       // [m/s] the same in this substep
+  T push_speed = T(0);      // [m/s] limit of the velocity that works off overlap
+  T push_speed_now = T(0);  // [m/s] the same in this substep
 
   struct Point {
-    T a = T(0), b = T(0);        // [m] place in the contact plane
-    T separation = T(0);         // [m] at the start of the step
-    T normal_mass = T(0);        // [kg] 1 / (velocity change per unit impulse)
-    T impulse = T(0);            // [N s] >= 0, this substep
+    T a = T(0), b = T(0);                  // [m] place in the contact plane
+    T separation = T(0);                   // [m] at the start of the step
+    T normal_mass = T(0);                  // [kg] 1 / (velocity change per unit impulse)
+    T impulse = T(0);                      // [N s] >= 0, this substep
     T friction1 = T(0), friction2 = T(0);  // [N s]
     T k11 = T(0), k12 = T(0), k22 = T(0);  // [1/kg] tangential response at this point
     T impulse_sum = T(0), friction1_sum = T(0), friction2_sum = T(0);  // over the step
   };
   Point points[kMaxPoints];
 
-  bool exact_spheres = false;    // both are spheres about their centres of mass
-  T radius_a = T(0), radius_b = T(0);  // [m] then
+  bool exact_spheres = false;            // both are spheres about their centres of mass
+  T radius_a = T(0), radius_b = T(0);    // [m] then
   T surface_a = T(0), surface_b = T(0);  // [m] radius of the rounded shapes, from core to surface
-  T approach_speed = T(0);       // [m/s] when the step began, largest over the points
-  T cut_unit = T(0);             // [m/s] |relative acceleration| h: unit of the bounce cuts
-  unsigned loaded = 0;           // bit i: point i carried load in the last substep
-  bool skip = false;             // a bounce takes care of it in this substep
+  T approach_speed = T(0);               // [m/s] when the step began, largest over the points
+  T cut_unit = T(0);                     // [m/s] |relative acceleration| h: unit of the bounce cuts
+  unsigned loaded = 0;                   // bit i: point i carried load in the last substep
+  bool skip = false;                     // a bounce takes care of it in this substep
   bool at_rest = false;
-  int bounces = 0;               // in this substep
+  int bounces = 0;  // in this substep
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,16 +1,16 @@
 // Bounces at their own time inside the substep.
 //
-// Until something hits it, a body follows x(t) = x + v t + a t^2/2. An impulse at time t changes v by
-// dv; shifting the start point by -t dv keeps the position at t continuous, so every trajectory keeps
-// its own energy and an elastic impulse keeps the total exactly, whatever the time step.
+// Until something hits it, a body follows x(t) = x + v t + a t^2/2. An impulse at time t changes v
+// by dv; shifting the start point by -t dv keeps the position at t continuous, so every trajectory
+// keeps its own energy and an elastic impulse keeps the total exactly, whatever the time step.
 //
 //   repeat
 //     for every bouncing row: T = when do its surfaces meet, on the present trajectories?
 //     rows that are the earliest of both their bodies: reflect, shift, note the time
 //   until nothing happens
 //
-// Rows that are no one's earliest wait: their turn comes in a later pass, on new trajectories. What is
-// too slow to bounce, or overlaps at the end, is left to the contact solver.
+// Rows that are no one's earliest wait: their turn comes in a later pass, on new trajectories. What
+// is too slow to bounce, or overlaps at the end, is left to the contact solver.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,20 +29,21 @@ namespace {
 constexpr Real kNever = std::numeric_limits<Real>::infinity();
 // Points that meet within this share of the substep bounce together [-]: a box that lands flat.
 constexpr Real kSimultaneous = Real(1e-4);
-// Sweeps over the points of one bounce [-]. Two suffice for one or two points, a flat box needs 13.
-constexpr int kBounceSweeps = 32;
+// Sweeps over the points of one bounce [-]. It ends when nothing changes: 2 for one or two points,
+// some 50 for a flat box.
+constexpr int kBounceSweeps = 256;
 
 struct Meeting {
-  Real time = kNever;      // [s] within the substep
-  Vec normal{0, 1, 0};     // A to B at that time
+  Real time = kNever;   // [s] within the substep
+  Vec normal{0, 1, 0};  // A to B at that time
 };
 
 struct Impacts {
   WorldState& world;
-  std::vector<Meeting> meetings;   // per bouncing row
-  std::vector<Real> local_time;    // per dense body: its last event [s]
-  std::vector<std::uint32_t> best; // per dense body: its earliest bouncing row
-  std::vector<std::uint8_t> stale; // per dense body: hit in the last pass
+  std::vector<Meeting> meetings;    // per bouncing row
+  std::vector<Real> local_time;     // per dense body: its last event [s]
+  std::vector<std::uint32_t> best;  // per dense body: its earliest bouncing row
+  std::vector<std::uint8_t> stale;  // per dense body: hit in the last pass
 
   Vec acceleration(std::uint32_t body) const {
     return world.substep[body].constrained ? world.substep[body].acceleration : Vec{0, 0, 0};
@@ -52,7 +53,8 @@ struct Impacts {
   }
 };
 
-// Smallest t in [t0, h] with s + v t + a t^2/2 = 0 while closing; t0 if already overlapping and closing.
+// Smallest t in [t0, h] with s + v t + a t^2/2 = 0 while closing; t0 if already overlapping and
+// closing.
 Real meeting_time(Real s, Real v, Real a, Real t0, Real h) {
   const Real s0 = s + t0 * (v + Real(0.5) * a * t0), v0 = v + a * t0;
   if (s0 <= Real(0)) return v0 < Real(0) ? t0 : kNever;
@@ -145,13 +147,13 @@ Meeting find_meeting(const Impacts& impacts, const ContactRow<Real>& row) {
 
 // One side of a bounce at its time t: where the body is and how it yields.
 struct Side {
-  Rotation q;                        // principal axes to world
-  Vec L, v, w;                       // [kg m^2/s], [m/s], [rad/s]
+  Rotation q;   // principal axes to world
+  Vec L, v, w;  // [kg m^2/s], [m/s], [rad/s]
   Symmetric3<Real> inverse_inertia;
   Vec inverse_mass;
-  Vec core;                          // [m] arm that has turned with the body
-  Vec place_axis1, place_axis2;      // the contact plane's axes as this body has carried them
-  Vec surface;                       // [m] from the core to the surface, along the normal
+  Vec core;                      // [m] arm that has turned with the body
+  Vec place_axis1, place_axis2;  // the contact plane's axes as this body has carried them
+  Vec surface;                   // [m] from the core to the surface, along the normal
 };
 
 Side side_at(const WorldState& world, const ContactRow<Real>& row, bool is_a, Vec normal, Real t) {
@@ -159,7 +161,16 @@ Side side_at(const WorldState& world, const ContactRow<Real>& row, bool is_a, Ve
   const BodyMass& m = world.bodies.mass[body];
   const BodyVelocity& velocity = world.bodies.velocity[body];
   const Rotation start = world.bodies.pose[body].q;
-  Side s{world.delta[body].dq * start, world.bodies.momentum[body].L, velocity.v, velocity.w, {}, {}, {}, {}, {}, {}};
+  Side s{world.delta[body].dq * start,
+         world.bodies.momentum[body].L,
+         velocity.v,
+         velocity.w,
+         {},
+         {},
+         {},
+         {},
+         {},
+         {}};
   if (world.substep[body].constrained) {
     turn_freely(RotationMethod::Exact, m, s.q, s.L, t);
     s.v += t * world.substep[body].acceleration;
@@ -176,8 +187,8 @@ Side side_at(const WorldState& world, const ContactRow<Real>& row, bool is_a, Ve
   return s;
 }
 
-// Gives a body its state after a bounce at time t: the velocity jumps, the path stays continuous. The
-// rotation is carried to t and back by the exact flow, so that turning loses no energy either.
+// Gives a body its state after a bounce at time t: the velocity jumps, the path stays continuous.
+// The rotation is carried to t and back by the exact flow, so that turning loses no energy either.
 void deflect(Impacts& impacts, std::uint32_t body, const Side& after, Vec dv, Real t) {
   WorldState& world = impacts.world;
   SubstepBody& s = world.substep[body];
@@ -195,7 +206,8 @@ void deflect(Impacts& impacts, std::uint32_t body, const Side& after, Vec dv, Re
   impacts.stale[body] = 1;
 }
 
-void note_bounce(WorldState& world, const ContactRow<Real>& row, Vec normal, PosVec point, Real approach, Real impulse) {
+void note_bounce(WorldState& world, const ContactRow<Real>& row, Vec normal, PosVec point,
+                 Real approach, Real impulse) {
   const Pair& pair = world.pairs[row.pair];
   HitEvent hit;
   hit.a = world.colliders.id(pair.collider_a());
@@ -227,7 +239,9 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
   };
   Point points[ContactRow<Real>::kMaxPoints];
   int count = 0;
-  const auto relative = [&](const Point& p) { return B.v + cross(B.w, p.rb) - A.v - cross(A.w, p.ra); };
+  const auto relative = [&](const Point& p) {
+    return B.v + cross(B.w, p.rb) - A.v - cross(A.w, p.ra);
+  };
   const auto response = [&](Vec d1, Vec d2, const Point& p) {
     return dot(d1, multiply_each(A.inverse_mass, d2) + multiply_each(B.inverse_mass, d2)) +
            dot(cross(p.ra, d1), A.inverse_inertia * cross(p.ra, d2)) +
@@ -239,15 +253,19 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
   for (int i = 0; i < row.count; ++i) {
     const PointMotion motion = point_motion(world, row, i, change);
     const Real gap = motion.s + t * (motion.v + Real(0.5) * a_n * t);
-    if (!row.exact_spheres && gap > kSimultaneous * world.h * std::abs(motion.v + a_n * t)) continue;
+    if (!row.exact_spheres && gap > kSimultaneous * world.h * std::abs(motion.v + a_n * t))
+      continue;
     const auto arm = [&](const Side& side) {
-      return side.core + row.points[i].a * side.place_axis1 + row.points[i].b * side.place_axis2 + side.surface;
+      return side.core + row.points[i].a * side.place_axis1 + row.points[i].b * side.place_axis2 +
+             side.surface;
     };
     Point& p = points[count++];
     p = {arm(A), arm(B), 0, 0, 0, 0, 0, i};
     if (row.both_dynamic) {  // one common point keeps the angular momentum
       const Vec apart = row.between + world.delta[row.body_b].dp - world.delta[row.body_a].dp +
-                        t * (B.v - A.v) - (Real(0.5) * t * t) * (impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a)) +
+                        t * (B.v - A.v) -
+                        (Real(0.5) * t * t) *
+                            (impacts.acceleration(row.body_b) - impacts.acceleration(row.body_a)) +
                         p.rb - p.ra;
       p.ra += Real(0.5) * apart;
       p.rb -= Real(0.5) * apart;
@@ -306,9 +324,11 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
     row.points[p.index].friction2_sum += p.l_2;
   }
   const std::uint32_t seen_from = row.body_a != 0 ? row.body_a : row.body_b;
-  const Vec moved = world.delta[seen_from].dp +
-                    t * (world.bodies.velocity[seen_from].v + (Real(0.5) * t) * impacts.acceleration(seen_from));
-  note_bounce(world, row, n, world.bodies.pose[seen_from].x + cast<PosReal>(moved + middle), approach, impulse);
+  const Vec moved =
+      world.delta[seen_from].dp +
+      t * (world.bodies.velocity[seen_from].v + (Real(0.5) * t) * impacts.acceleration(seen_from));
+  note_bounce(world, row, n, world.bodies.pose[seen_from].x + cast<PosReal>(moved + middle),
+              approach, impulse);
   deflect(impacts, row.body_a, A, A.v - va_before, t);
   deflect(impacts, row.body_b, B, B.v - vb_before, t);
   ++row.bounces;
@@ -330,12 +350,14 @@ void share_with_contact_solver(Impacts& impacts) {
       closing_at_end = std::max(closing_at_end, -(motion.v + a * h));
       gap_at_end = std::min(gap_at_end, motion.s + h * (motion.v + Real(0.5) * a * h));
     }
-    const bool left_by_bounce =
-        row.bounces > 0 && closing_now < Real(0) && (gap_at_end > Real(0) || closing_at_end < Real(0));
-    // Not yet there, or too fast to be stopped: it bounces in a later substep. (The contact solver ends
-    // a substep at v h + a h^2, half an a h^2 too deep, and would stop it just before it touches.)
-    const bool will_bounce = !row.at_rest && row.bounces < tolerance::kMaxBouncesPerSubstep &&
-                             (gap_at_end > Real(0) || closing_at_end > impacts.cut(row) + row.cut_unit);
+    const bool left_by_bounce = row.bounces > 0 && closing_now < Real(0) &&
+                                (gap_at_end > Real(0) || closing_at_end < Real(0));
+    // Not yet there, or too fast to be stopped: it bounces in a later substep. (The contact solver
+    // ends a substep at v h + a h^2, half an a h^2 too deep, and would stop it just before it
+    // touches.)
+    const bool will_bounce =
+        !row.at_rest && row.bounces < tolerance::kMaxBouncesPerSubstep &&
+        (gap_at_end > Real(0) || closing_at_end > impacts.cut(row) + row.cut_unit);
     row.skip = left_by_bounce || will_bounce;
     if (row.skip) {
       row.at_rest = false;

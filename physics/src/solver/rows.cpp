@@ -38,8 +38,8 @@ struct RowContext {
 Real bilinear(const Symmetric3<Real>& M, Vec x, Vec y) { return dot(x, M * y); }
 Real bilinear(Vec diagonal, Vec x, Vec y) { return dot(x, multiply_each(diagonal, y)); }
 
-// K of the normal space (u0, u1, u2) and of the friction space (x, y, z): the velocity change per unit
-// generalised impulse, summed over both bodies.
+// K of the normal space (u0, u1, u2) and of the friction space (x, y, z): the velocity change per
+// unit generalised impulse, summed over both bodies.
 void add_response(ContactRow<Real>& row, Vec arm, Vec inverse_mass,
                   const Symmetric3<Real>& inverse_inertia) {
   const Vec rn = cross(arm, row.n), r1 = cross(arm, row.t1), r2 = cross(arm, row.t2);
@@ -69,51 +69,59 @@ void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, Real warm)
     point.separation = from.separation;
     const Real a = point.a, b = point.b;
     const auto& K = row.K_normal;
-    const Real response = K.xx + b * b * K.yy + a * a * K.zz + Real(2) * (b * K.xy - a * K.xz - a * b * K.yz);
+    const Real response =
+        K.xx + b * b * K.yy + a * a * K.zz + Real(2) * (b * K.xy - a * K.xz - a * b * K.yz);
     point.normal_mass = response > Real(0) ? Real(1) / response : Real(0);
     const auto& F = row.K_friction;
     point.k11 = F.xx - Real(2) * b * F.xz + b * b * F.zz;
     point.k12 = F.xy + a * F.xz - b * F.yz - a * b * F.zz;
     point.k22 = F.yy + Real(2) * a * F.yz + a * a * F.zz;
     point.impulse = warm * pair.normal_impulse[i];
-    point.friction1 = warm * dot(row.t1, pair.friction_impulse[i]);
-    point.friction2 = warm * dot(row.t2, pair.friction_impulse[i]);
+    // Friction also stops swaying, and those impulses must not grow with the step: that would pump.
+    const Real warm_friction = std::min(warm, Real(1));
+    point.friction1 = warm_friction * dot(row.t1, pair.friction_impulse[i]);
+    point.friction2 = warm_friction * dot(row.t2, pair.friction_impulse[i]);
   }
 }
 
-// A contact sinks by g/w^2 under its load. For every size to sink the same fraction, w^2 must follow
-// g / thickness; the damping ratio follows it upwards, so that overlap is not worked off faster, only
-// held more stiffly: sequential impulses tremble when small bodies are pushed apart too eagerly.
+// A contact sinks by g/w^2 under its load. For every size to sink the same fraction, w^2 must
+// follow g / thickness; the damping ratio follows it upwards, so that overlap is not worked off
+// faster, only held more stiffly: sequential impulses tremble when small bodies are pushed apart
+// too eagerly.
 Softness contact_softness(const WorldState& world, Real thickness, bool against_fixed) {
   const Real g = static_cast<Real>(world.settings.gravity.norm());
   const Real pull = std::max(g / thickness, tolerance::kSlowestPull);
   const Real stiffer = std::sqrt(pull / tolerance::kReferencePull);
-  const Real frequency = world.settings.contact_frequency * stiffer * (against_fixed ? tolerance::kStaticStiffness : Real(1));
-  return make_softness(frequency, world.settings.contact_damping_ratio * std::max(stiffer, Real(1)), world.h);
+  const Real frequency = world.settings.contact_frequency * stiffer *
+                         (against_fixed ? tolerance::kStaticStiffness : Real(1));
+  return make_softness(frequency, world.settings.contact_damping_ratio * std::max(stiffer, Real(1)),
+                       world.h);
 }
 
-// Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points lie
-// nearly on a line, or a locked axis leaves nothing to solve for.
+// Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points
+// lie nearly on a line, or a locked axis leaves nothing to solve for.
 constexpr Real kSolvable = Real(1e-5);
 
 bool invert(const Symmetric3<Real>& m, Symmetric3<Real>& out) {
-  const Real cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz, cxz = m.xy * m.yz - m.xz * m.yy;
+  const Real cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz,
+             cxz = m.xy * m.yz - m.xz * m.yy;
   const Real determinant = m.xx * cxx + m.xy * cxy + m.xz * cxz;
   if (!(determinant > kSolvable * m.xx * m.yy * m.zz)) return false;
   const Real d = Real(1) / determinant;
-  out = {d * cxx, d * (m.xx * m.zz - m.xz * m.xz), d * (m.xx * m.yy - m.xy * m.xy),
-         d * cxy, d * cxz, d * (m.xy * m.xz - m.xx * m.yz)};
+  out = {d * cxx, d * (m.xx * m.zz - m.xz * m.xz), d * (m.xx * m.yy - m.xy * m.xy), d * cxy,
+         d * cxz, d * (m.xy * m.xz - m.xx * m.yz)};
   return true;
 }
 
-// The response of the points to their impulses is A = G K G^T with the rows (1, b_i, -a_i) of G. Its
-// pseudo-inverse is H K^-1 H^T, H = G (G^T G)^-1; for two points A itself is inverted.
+// The response of the points to their impulses is A = G K G^T with the rows (1, b_i, -a_i) of G.
+// Its pseudo-inverse is H K^-1 H^T, H = G (G^T G)^-1; for two points A itself is inverted.
 void make_block(ContactRow<Real>& row) {
   constexpr int kStride[4] = {0, 4, 7, 9};  // where each row of the upper triangle begins
   if (row.count == 2) {
     const auto row_of = [&](int i) { return Vec{Real(1), row.points[i].b, -row.points[i].a}; };
     const Vec g0 = row_of(0), g1 = row_of(1);
-    const Real a00 = dot(g0, row.K_normal * g0), a01 = dot(g0, row.K_normal * g1), a11 = dot(g1, row.K_normal * g1);
+    const Real a00 = dot(g0, row.K_normal * g0), a01 = dot(g0, row.K_normal * g1),
+               a11 = dot(g1, row.K_normal * g1);
     const Real determinant = a00 * a11 - a01 * a01;
     if (!(determinant > kSolvable * a00 * a11)) return;
     row.block[0] = a11 / determinant;
@@ -135,7 +143,8 @@ void make_block(ContactRow<Real>& row) {
   }
   if (!invert(gram, gram_inverse) || !invert(row.K_normal, K_inverse)) return;
   Vec h[4];
-  for (int i = 0; i < row.count; ++i) h[i] = gram_inverse * Vec{Real(1), row.points[i].b, -row.points[i].a};
+  for (int i = 0; i < row.count; ++i)
+    h[i] = gram_inverse * Vec{Real(1), row.points[i].b, -row.points[i].a};
   for (int i = 0; i < row.count; ++i)
     for (int j = i; j < row.count; ++j) row.block[kStride[i] + j - i] = dot(h[i], K_inverse * h[j]);
   row.has_block = true;
@@ -190,7 +199,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
     add_response(row, row.arm_b, row.inverse_mass_b, row.inverse_inertia_b);
   }
   // The remembered impulses belong to a substep of the last length; forces are what persists.
-  const Real warm = world.settings.warm_starting && world.last_h > Real(0) ? world.h / world.last_h : Real(0);
+  const Real warm =
+      world.settings.warm_starting && world.last_h > Real(0) ? world.h / world.last_h : Real(0);
   make_points(row, pair, center, warm);
   make_block(row);
 
@@ -219,7 +229,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
   const auto& collider_a = world.colliders.info[pair.collider_a()];
   const auto& collider_b = world.colliders.info[pair.collider_b()];
   if (row.restitution > Real(0) && collider_a.shape.type == ShapeType::Sphere &&
-      collider_b.shape.type == ShapeType::Sphere && length_squared(collider_a.in_body.p) == Real(0) &&
+      collider_b.shape.type == ShapeType::Sphere &&
+      length_squared(collider_a.in_body.p) == Real(0) &&
       length_squared(collider_b.in_body.p) == Real(0)) {
     row.exact_spheres = true;
     row.radius_a = collider_a.shape.radius;
@@ -244,23 +255,24 @@ void build_rows(WorldState& world) {
   // Bodies first: what a row reads of them, and which of them are held by a row.
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end; ++i) {
-      world.delta[i] = {};
-      SubstepBody& s = world.substep[i];
-      s = {};
-      const BodyMass& m = bodies.mass[i];
-      s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
-      if (m.mass > Real(0)) {
-        const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
-        // A locked axis feels no gravity.
-        s.acceleration += Vec{m.inverse_mass.x > Real(0) ? g.x : Real(0),
-                              m.inverse_mass.y > Real(0) ? g.y : Real(0),
-                              m.inverse_mass.z > Real(0) ? g.z : Real(0)};
-        s.I = world_inertia(m, bodies.pose[i].q);
-        s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
-      }
-    }
-  });
+                 for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;
+                      ++i) {
+                   world.delta[i] = {};
+                   SubstepBody& s = world.substep[i];
+                   s = {};
+                   const BodyMass& m = bodies.mass[i];
+                   s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
+                   if (m.mass > Real(0)) {
+                     const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
+                     // A locked axis feels no gravity.
+                     s.acceleration += Vec{m.inverse_mass.x > Real(0) ? g.x : Real(0),
+                                           m.inverse_mass.y > Real(0) ? g.y : Real(0),
+                                           m.inverse_mass.z > Real(0) ? g.z : Real(0)};
+                     s.I = world_inertia(m, bodies.pose[i].q);
+                     s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
+                   }
+                 }
+               });
   for (const std::uint32_t i : world.touching) {
     const Pair& pair = world.pairs[i];
     const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
@@ -269,7 +281,8 @@ void build_rows(WorldState& world) {
   }
   world.rows.resize(count);
   parallel_for(world, count, tolerance::kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) build_row(context, world.rows[i], world.row_order[i]);
+    for (std::uint32_t i = begin; i < end; ++i)
+      build_row(context, world.rows[i], world.row_order[i]);
   });
   world.bouncing_rows.clear();
   for (std::uint32_t i = 0; i < count; ++i)

@@ -7,7 +7,8 @@
 //     solve       one pass, overlap worked off softly
 //     drift       dp += h v; rotation by the torque-free flow with L fixed
 //     relax       one pass without the bias: the velocities that push out overlap do not stay
-//     trapezoid   dp += theta (h/2)(v_start - v_end): free fall, sliding and rolling become exact to
+//     trapezoid   dp += theta (h/2)(v_start - v_end): free fall, sliding and rolling become exact
+//     to
 //                 second order; theta is the share of the substep during which contacts slid
 #include <cmath>
 
@@ -27,8 +28,8 @@ void for_awake_bodies(WorldState& world, Task&& task) {
   const std::uint32_t first = world.bodies.awake_begin;
   parallel_for(world, world.bodies.awake_end - first, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = first + begin; i < first + end; ++i) task(i);
-  });
+                 for (std::uint32_t i = first + begin; i < first + end; ++i) task(i);
+               });
 }
 
 // Rows of one colour share no dynamic body, so they may run in any order, or at once.
@@ -37,8 +38,9 @@ void for_rows_by_color(WorldState& world, Task&& task) {
   for (const ColorRange color : world.colors) {
     parallel_for(world, color.end - color.begin, tolerance::kRowGrain,
                  [&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t i = color.begin + begin; i < color.begin + end; ++i) task(world.rows[i]);
-    });
+                   for (std::uint32_t i = color.begin + begin; i < color.begin + end; ++i)
+                     task(world.rows[i]);
+                 });
   }
 }
 
@@ -50,7 +52,8 @@ RowVelocities<Real> read_velocities(const WorldState& world, const ContactRow<Re
   return u;
 }
 // Bodies that are not dynamic may stand in many rows of a colour; they are never written.
-void write_velocities(WorldState& world, const ContactRow<Real>& row, const RowVelocities<Real>& u) {
+void write_velocities(WorldState& world, const ContactRow<Real>& row,
+                      const RowVelocities<Real>& u) {
   if (world.substep[row.body_a].constrained) {
     world.bodies.velocity[row.body_a].v = u.va;
     world.bodies.velocity[row.body_a].w = u.wa;
@@ -89,7 +92,8 @@ void kick(WorldState& world, std::uint32_t i) {
   s.w_in = velocity.w;
 }
 
-// What the rows did to w becomes angular momentum, by the same inertia with which they saw the body.
+// What the rows did to w becomes angular momentum, by the same inertia with which they saw the
+// body.
 void collect_momentum(WorldState& world, std::uint32_t i) {
   SubstepBody& s = world.substep[i];
   world.bodies.momentum[i].L += s.I * (world.bodies.velocity[i].w - s.w_in);
@@ -130,12 +134,14 @@ void finish_substep(WorldState& world, std::uint32_t i) {
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
   if (length_squared(lost) > Real(0) && world.settings.rotation == RotationMethod::Exact) {
-    const Vec turn = weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost);
+    const Vec turn =
+        weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost);
     delta.dq = normalized(from_rotation_vector(turn) * delta.dq);
   }
 }
 
-// A change in which points carry load marks both bodies, whose velocities then jump rather than ramp.
+// A change in which points carry load marks both bodies, whose velocities then jump rather than
+// ramp.
 void note_loaded_points(WorldState& world, ContactRow<Real>& row) {
   const unsigned loaded = loaded_points(world, row);
   if (loaded == row.loaded) return;
@@ -146,8 +152,7 @@ void note_loaded_points(WorldState& world, ContactRow<Real>& row) {
 
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
   if (!row.skip) {
-    const auto change =
-        separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
+    const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
     RowVelocities<Real> u = read_velocities(world, row);
     Real load = 0, sliding = 0;
     solve_normal(row, change, inverse_h, false, u);
@@ -180,19 +185,20 @@ void close_substep(WorldState& world, ContactRow<Real>& row) {
 void store_impulses(WorldState& world) {
   parallel_for(world, static_cast<std::uint32_t>(world.rows.size()), tolerance::kRowGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t k = begin; k < end; ++k) {
-      const ContactRow<Real>& row = world.rows[k];
-      Pair& pair = world.pairs[row.pair];
-      pair.at_rest = row.at_rest;
-      for (int i = 0; i < row.count; ++i) {
-        const auto& point = row.points[i];
-        pair.normal_impulse[i] = point.impulse;
-        pair.friction_impulse[i] = point.friction1 * row.t1 + point.friction2 * row.t2;
-        pair.step_normal_impulse[i] += point.impulse_sum;
-        pair.step_friction_impulse[i] += point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
-      }
-    }
-  });
+                 for (std::uint32_t k = begin; k < end; ++k) {
+                   const ContactRow<Real>& row = world.rows[k];
+                   Pair& pair = world.pairs[row.pair];
+                   pair.at_rest = row.at_rest;
+                   for (int i = 0; i < row.count; ++i) {
+                     const auto& point = row.points[i];
+                     pair.normal_impulse[i] = point.impulse;
+                     pair.friction_impulse[i] = point.friction1 * row.t1 + point.friction2 * row.t2;
+                     pair.step_normal_impulse[i] += point.impulse_sum;
+                     pair.step_friction_impulse[i] +=
+                         point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
+                   }
+                 }
+               });
 }
 
 // Bodies that no row holds fly the whole step at once, exactly: x = v t + a t^2/2 (or its damped

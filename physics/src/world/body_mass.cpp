@@ -21,9 +21,11 @@ MassProperties properties_from_colliders(const WorldState& world, const BodyInfo
     const Collider& component = world.colliders.info[slot].component;
     if (component.is_sensor || component.density == 0) continue;
     const ShapeMass part = mass_of(component.shape, component.density);
-    if (!part.status.ok()) continue;  // half-spaces; refused on dynamic bodies when they are created
-    const MassProperties placed = part.properties.placed(component.pose.position.template cast<double>(),
-                                                         Eigen::Quaterniond(component.pose.orientation.template cast<double>()));
+    if (!part.status.ok())
+      continue;  // half-spaces; refused on dynamic bodies when they are created
+    const MassProperties placed = part.properties.placed(
+        component.pose.position.template cast<double>(),
+        Eigen::Quaterniond(component.pose.orientation.template cast<double>()));
     sum = sum.mass > 0 ? sum.plus(placed) : placed;
   }
   return sum;
@@ -32,8 +34,8 @@ MassProperties properties_from_colliders(const WorldState& world, const BodyInfo
 Rotation rotation_from(const Eigen::Matrix3d& R) {
   if (R.isIdentity(0)) return {0, 0, 0, 1};
   const Eigen::Quaterniond q(R);
-  return normalized(Rotation{static_cast<Real>(q.x()), static_cast<Real>(q.y()), static_cast<Real>(q.z()),
-                             static_cast<Real>(q.w())});
+  return normalized(Rotation{static_cast<Real>(q.x()), static_cast<Real>(q.y()),
+                             static_cast<Real>(q.z()), static_cast<Real>(q.w())});
 }
 
 Real inverse_or_zero(double a) { return a > 0 ? static_cast<Real>(1 / a) : Real(0); }
@@ -64,24 +66,28 @@ void update_mass(WorldState& world, std::uint32_t body) {
       info.properties = {};
       info.properties.mass = kPointMass;
     }
-    center = {static_cast<Real>(info.properties.center.x()), static_cast<Real>(info.properties.center.y()),
+    center = {static_cast<Real>(info.properties.center.x()),
+              static_cast<Real>(info.properties.center.y()),
               static_cast<Real>(info.properties.center.z())};
     const MassProperties::Principal principal = info.properties.principal();
     Eigen::Vector3d I = principal.moments;
     Eigen::Matrix3d R = principal.R_BP;
     const Eigen::Matrix3d& tensor = info.properties.I_Bcm_B;
-    const double products = std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
+    const double products =
+        std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
     if (I.maxCoeff() - I.minCoeff() <= kEqualMoments * I.maxCoeff()) {
       I.setConstant(I.mean());
       R.setIdentity();
     } else if (products <= kEqualMoments * I.maxCoeff()) {
-      I = tensor.diagonal();  // body axes are principal axes already: keep them, whatever their order
+      I = tensor
+              .diagonal();  // body axes are principal axes already: keep them, whatever their order
       R.setIdentity();
     }
     R_BP = rotation_from(R);
     const Real inverse = inverse_or_zero(info.properties.mass);
     mass.mass = static_cast<Real>(info.properties.mass);
-    mass.inverse_mass = {info.locks.linear_x ? Real(0) : inverse, info.locks.linear_y ? Real(0) : inverse,
+    mass.inverse_mass = {info.locks.linear_x ? Real(0) : inverse,
+                         info.locks.linear_y ? Real(0) : inverse,
                          info.locks.linear_z ? Real(0) : inverse};
     mass.moments = {static_cast<Real>(I.x()), static_cast<Real>(I.y()), static_cast<Real>(I.z())};
     mass.inverse_moments = {inverse_or_zero(I.x()), inverse_or_zero(I.y()), inverse_or_zero(I.z())};
@@ -111,7 +117,8 @@ void update_collider_frames(WorldState& world, std::uint32_t body) {
     collider.thickness = smallest_thickness(collider.shape);
     if (collider.component.is_sensor) continue;
     info.size = info.size > Real(0) ? std::min(info.size, collider.thickness) : collider.thickness;
-    info.radius = std::max(info.radius, length(collider.in_body.p) + bounding_radius(collider.shape));
+    info.radius =
+        std::max(info.radius, length(collider.in_body.p) + bounding_radius(collider.shape));
   }
 }
 

@@ -19,12 +19,12 @@ inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max()
 struct BodyVelocity {  // 32 / 64
   Vec v{0, 0, 0};      // [m/s] centre of mass
   Real pad0 = 0;
-  Vec w{0, 0, 0};      // [rad/s] world axes
+  Vec w{0, 0, 0};  // [rad/s] world axes
   Real pad1 = 0;
 };
 
-struct BodyPose {      // 28 / 56 (f32d: 40)
-  PosVec x{0, 0, 0};   // [m] centre of mass
+struct BodyPose {          // 28 / 56 (f32d: 40)
+  PosVec x{0, 0, 0};       // [m] centre of mass
   Rotation q{0, 0, 0, 1};  // R_WP: principal axes to world
 };
 
@@ -34,19 +34,19 @@ struct BodyMomentum {  // 12 / 24
   Vec L{0, 0, 0};      // [kg m^2/s] about the centre of mass, world axes
 };
 
-struct BodyMass {      // 48 / 96
+struct BodyMass {                // 48 / 96
   Vec inverse_mass{0, 0, 0};     // [1/kg] by world axis; 0: locked or not dynamic
   Real mass = 0;                 // [kg]; 0: not dynamic
   Vec inverse_moments{0, 0, 0};  // [1/(kg m^2)] about the principal axes; 0: does not turn
   Real gravity_scale = 1;
-  Vec moments{0, 0, 0};          // [kg m^2]; 0 where the inverse is
+  Vec moments{0, 0, 0};             // [kg m^2]; 0 where the inverse is
   std::uint32_t angular_locks = 0;  // bit i: no rotation about world axis i
 };
 
-struct BodyForce {     // 32 / 64
-  Vec force{0, 0, 0};  // [N] over the next step
+struct BodyForce {          // 32 / 64
+  Vec force{0, 0, 0};       // [N] over the next step
   Real linear_damping = 0;  // [1/s]
-  Vec torque{0, 0, 0};  // [N m]
+  Vec torque{0, 0, 0};      // [N m]
   Real angular_damping = 0;
 };
 
@@ -55,7 +55,7 @@ struct BodyForce {     // 32 / 64
 struct BodyInfo {
   std::uint32_t generation = 0;
   bool alive = false;
-  bool disabled = false;   // quarantined: its state became non-finite
+  bool disabled = false;  // quarantined: its state became non-finite
   bool has_own_mass = false;
   MotionType type = MotionType::Dynamic;
   MotionLocks locks;
@@ -78,12 +78,14 @@ class BodyStore {
  public:
   BodyStore() { push_dense(kNone); }  // dense 0 stands for the world itself: infinite mass, at rest
 
-  std::uint32_t create();          // returns the slot, asleep part
+  std::uint32_t create();  // returns the slot, asleep part
   void destroy(std::uint32_t slot);
-  void wake(std::uint32_t slot);   // into the awake part of the dense arrays
-  void rest(std::uint32_t slot);   // out of it
+  void wake(std::uint32_t slot);  // into the awake part of the dense arrays
+  void rest(std::uint32_t slot);  // out of it
   [[nodiscard]] bool is_awake(std::uint32_t slot) const { return info[slot].dense < awake_end; }
-  [[nodiscard]] std::uint32_t dense_count() const { return static_cast<std::uint32_t>(slot_of.size()); }
+  [[nodiscard]] std::uint32_t dense_count() const {
+    return static_cast<std::uint32_t>(slot_of.size());
+  }
 
   std::vector<BodyVelocity> velocity;
   std::vector<BodyPose> pose;

@@ -11,11 +11,16 @@ namespace {
 
 Real combine(CombineRule rule, Real a, Real b) {
   switch (rule) {
-    case CombineRule::Average: return Real(0.5) * (a + b);
-    case CombineRule::GeometricMean: return std::sqrt(a * b);
-    case CombineRule::Minimum: return std::min(a, b);
-    case CombineRule::Maximum: return std::max(a, b);
-    case CombineRule::Multiply: return a * b;
+    case CombineRule::Average:
+      return Real(0.5) * (a + b);
+    case CombineRule::GeometricMean:
+      return std::sqrt(a * b);
+    case CombineRule::Minimum:
+      return std::min(a, b);
+    case CombineRule::Maximum:
+      return std::max(a, b);
+    case CombineRule::Multiply:
+      return a * b;
   }
   return a;
 }
@@ -25,7 +30,8 @@ WorldAabb grown(const WorldAabb& box, PosReal by) {
   return {box.lower - m, box.upper + m};
 }
 
-// Bounds that hold the collider throughout the next step, whatever its contacts do to it but stop it.
+// Bounds that hold the collider throughout the next step, whatever its contacts do to it but stop
+// it.
 WorldAabb bounds_for_next_step(const WorldState& world, const ColliderInfo& collider) {
   const BodyStore& bodies = world.bodies;
   const std::uint32_t dense = bodies.info[collider.body].dense;
@@ -65,7 +71,8 @@ Pair make_pair(const WorldState& world, std::uint64_t key) {
   const Material& ma = a.component.material;
   const Material& mb = b.component.material;
   pair.friction = combine(std::max(ma.friction_rule, mb.friction_rule), ma.friction, mb.friction);
-  pair.restitution = combine(std::max(ma.restitution_rule, mb.restitution_rule), ma.restitution, mb.restitution);
+  pair.restitution =
+      combine(std::max(ma.restitution_rule, mb.restitution_rule), ma.restitution, mb.restitution);
   pair.slop = tolerance::kSlopFraction * std::min(a.thickness, b.thickness);
   pair.relative_to_b = world.bodies.info[a.body].type != MotionType::Dynamic;
   return pair;
@@ -78,13 +85,17 @@ void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
   const Real thickness = std::min(collider.thickness, kUnbounded);
   const Real speed = collider.is_static ? Real(0) : reach_per_second(world, collider);
   const std::uint32_t dense = world.bodies.info[collider.body].dense;
-  const Real pulled = length(multiply_each(world.bodies.mass[dense].inverse_mass, world.bodies.force[dense].force));
-  const Real fall = collider.is_static ? Real(0)
-      : world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
+  const Real pulled =
+      length(multiply_each(world.bodies.mass[dense].inverse_mass, world.bodies.force[dense].force));
+  const Real fall =
+      collider.is_static
+          ? Real(0)
+          : world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
   const Real slops = tolerance::kMarginSlops * tolerance::kSlopFraction * thickness;
   const WorldAabb needed = grown(tight, static_cast<PosReal>(slops + world.dt * speed + fall));
   if (!force && contains(tree.box(collider.proxy), needed)) return;
-  const Real ahead = tolerance::kFatBoxFraction * thickness + tolerance::kFatBoxSteps * (world.dt * speed + fall);
+  const Real ahead =
+      tolerance::kFatBoxFraction * thickness + tolerance::kFatBoxSteps * (world.dt * speed + fall);
   const WorldAabb fat = collider.is_static ? needed : grown(needed, static_cast<PosReal>(ahead));
   if (collider.proxy == AabbTree::kNull) {
     collider.proxy = tree.insert(fat, slot);
@@ -99,20 +110,22 @@ void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
 
 namespace {
 
-// Bodies that were acted on between steps may be faster than their boxes reach; all of them when the
-// time step is another.
+// Bodies that were acted on between steps may be faster than their boxes reach; all of them when
+// the time step is another.
 void refresh_proxies(WorldState& world) {
   BodyStore& bodies = world.bodies;
   std::vector<std::uint32_t>& stale = world.touched;
   if (world.dt != world.proxy_dt) {
-    stale.assign(bodies.slot_of.begin() + bodies.awake_begin, bodies.slot_of.begin() + bodies.awake_end);
+    stale.assign(bodies.slot_of.begin() + bodies.awake_begin,
+                 bodies.slot_of.begin() + bodies.awake_end);
     world.proxy_dt = world.dt;
   }
   std::sort(stale.begin(), stale.end());
   stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
   for (const std::uint32_t body : stale) {
     if (body >= bodies.info.size() || !bodies.info[body].alive) continue;
-    for (const std::uint32_t collider : bodies.info[body].colliders) update_proxy(world, collider, false);
+    for (const std::uint32_t collider : bodies.info[body].colliders)
+      update_proxy(world, collider, false);
   }
   stale.clear();
 }
@@ -138,16 +151,19 @@ void find_pairs(WorldState& world) {
         const std::uint64_t key = pair_key(slot, other);
         if (!world.pairs.contains(key)) keys.push_back(key);
       };
-      const WorldAabb& box = (collider.is_static ? world.static_tree : world.moving_tree).box(collider.proxy);
+      const WorldAabb& box =
+          (collider.is_static ? world.static_tree : world.moving_tree).box(collider.proxy);
       world.moving_tree.query(box, meet);
       if (!collider.is_static) world.static_tree.query(box, meet);
     }
   });
   world.new_keys.clear();
   for (std::uint32_t c = 0; c < chunks; ++c)
-    world.new_keys.insert(world.new_keys.end(), world.new_keys_by_chunk[c].begin(), world.new_keys_by_chunk[c].end());
+    world.new_keys.insert(world.new_keys.end(), world.new_keys_by_chunk[c].begin(),
+                          world.new_keys_by_chunk[c].end());
   std::sort(world.new_keys.begin(), world.new_keys.end());
-  world.new_keys.erase(std::unique(world.new_keys.begin(), world.new_keys.end()), world.new_keys.end());
+  world.new_keys.erase(std::unique(world.new_keys.begin(), world.new_keys.end()),
+                       world.new_keys.end());
   world.new_pairs.clear();
   for (const std::uint64_t key : world.new_keys) world.new_pairs.push_back(make_pair(world, key));
   world.pairs.insert_sorted(world.new_pairs);

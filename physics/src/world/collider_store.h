@@ -14,14 +14,14 @@ namespace plumb::inline PLUMB_ABI::detail {
 struct ColliderInfo {
   std::uint32_t generation = 0;
   bool alive = false;
-  bool is_static = false;          // which of the two trees it is in
-  std::uint32_t body = 0;          // slot
+  bool is_static = false;  // which of the two trees it is in
+  std::uint32_t body = 0;  // slot
   std::int32_t proxy = AabbTree::kNull;
-  bool query_pairs = false;        // its box grew since pairs were last sought
-  Collider component;              // as given
+  bool query_pairs = false;  // its box grew since pairs were last sought
+  Collider component;        // as given
   CollisionShape shape;
-  Transform in_body;               // shape placed relative to the centre of mass, principal axes
-  Real thickness = 0;              // [m]
+  Transform in_body;   // shape placed relative to the centre of mass, principal axes
+  Real thickness = 0;  // [m]
 };
 
 class ColliderStore {

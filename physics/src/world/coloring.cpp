@@ -1,9 +1,9 @@
 // Graph colouring: rows of one colour share no dynamic body, so that they can be solved at once, by
 // several threads or several lanes, with the same result in any order.
 //
-// Greedy, from nothing in every step, in the order of pairs; deterministic by construction. Contacts
-// with what does not move come last in each colour's turn of choice: they take the lowest free colour
-// of one body only.
+// Greedy, from nothing in every step, in the order of pairs; deterministic by construction.
+// Contacts with what does not move come last in each colour's turn of choice: they take the lowest
+// free colour of one body only.
 #include <bit>
 
 #include "world/world_state.h"
@@ -11,7 +11,7 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-constexpr int kColors = 64;          // bits of a body's mask; the last one is the overflow
+constexpr int kColors = 64;  // bits of a body's mask; the last one is the overflow
 constexpr int kOverflow = kColors - 1;
 
 }  // namespace
@@ -21,7 +21,8 @@ void color_contacts(WorldState& world) {
   world.color_mask.assign(bodies.awake_end, 0);
   const auto mask_of = [&](std::uint32_t body) -> std::uint64_t* {
     const std::uint32_t dense = bodies.info[body].dense;
-    return bodies.mass[dense].mass > Real(0) && dense < bodies.awake_end ? &world.color_mask[dense] : nullptr;
+    return bodies.mass[dense].mass > Real(0) && dense < bodies.awake_end ? &world.color_mask[dense]
+                                                                         : nullptr;
   };
   std::vector<std::uint32_t> counts(kColors + 1, 0);
   std::vector<std::uint8_t> color_of(world.touching.size());

@@ -11,11 +11,12 @@ namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
 bool is_sound(const BodyVelocity& velocity, const BodyPose& pose, Vec L) {
-  return is_finite(velocity.v) && is_finite(velocity.w) && is_finite(pose.x) && is_finite(pose.q) && is_finite(L);
+  return is_finite(velocity.v) && is_finite(velocity.w) && is_finite(pose.x) && is_finite(pose.q) &&
+         is_finite(L);
 }
 
-// Moves one body to where the step has brought it. Returns false, and leaves the old pose, when that is
-// no place.
+// Moves one body to where the step has brought it. Returns false, and leaves the old pose, when
+// that is no place.
 bool move_body(WorldState& world, std::uint32_t i) {
   BodyStore& bodies = world.bodies;
   BodyInfo& info = bodies.info[bodies.slot_of[i]];
@@ -23,7 +24,8 @@ bool move_body(WorldState& world, std::uint32_t i) {
   BodyPose next = bodies.pose[i];
   next.x += cast<PosReal>(delta.dp);
   const bool dynamic = bodies.mass[i].mass > Real(0);
-  const bool turned_here = world.substep[i].constrained || !dynamic;  // free bodies have turned already
+  const bool turned_here =
+      world.substep[i].constrained || !dynamic;  // free bodies have turned already
   if (turned_here) next.q = normalized(delta.dq * next.q);
   if (turned_here && dynamic)
     bodies.velocity[i].w = angular_velocity_of(bodies.mass[i], next.q, bodies.momentum[i].L);
@@ -64,26 +66,31 @@ void note_contact_events(WorldState& world) {
     }
     if (now == pair.was_touching) continue;
     pair.was_touching = now;
-    const ColliderId a = world.colliders.id(pair.collider_a()), b = world.colliders.id(pair.collider_b());
+    const ColliderId a = world.colliders.id(pair.collider_a()),
+                     b = world.colliders.id(pair.collider_b());
     if (pair.sensor) {
       const bool a_senses = world.colliders.info[a.index].component.is_sensor;
-      world.gathering.sensors.push_back(
-          {now ? SensorEvent::Kind::Enter : SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
+      world.gathering.sensors.push_back({now ? SensorEvent::Kind::Enter : SensorEvent::Kind::Exit,
+                                         a_senses ? a : b, a_senses ? b : a});
     } else {
       world.gathering.contacts.push_back(
-          {now ? ContactEvent::Kind::Begin : ContactEvent::Kind::End, a, b,
+          {now ? ContactEvent::Kind::Begin : ContactEvent::Kind::End,
+           a,
+           b,
            {pair.body_a, world.bodies.info[pair.body_a].generation},
            {pair.body_b, world.bodies.info[pair.body_b].generation}});
     }
   }
 }
 
-// Contacts that began with an approach above the bounce threshold and were stopped without a bounce.
+// Contacts that began with an approach above the bounce threshold and were stopped without a
+// bounce.
 void note_hits(WorldState& world) {
   for (const ContactRow<Real>& row : world.rows) {
     if (row.restitution > Real(0) && row.bounces > 0) continue;
     const Pair& pair = world.pairs[row.pair];
-    if (pair.was_touching || row.approach_speed <= tolerance::kBounceCutResting * row.cut_unit) continue;
+    if (pair.was_touching || row.approach_speed <= tolerance::kBounceCutResting * row.cut_unit)
+      continue;
     HitEvent hit;
     Vec place{0, 0, 0};
     Real impulse = 0;
@@ -92,12 +99,14 @@ void note_hits(WorldState& world) {
       place += row.points[i].impulse_sum * pair.manifold.points[i].position;
     }
     if (!(impulse > Real(0))) continue;
-    const std::uint32_t reference = world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
+    const std::uint32_t reference =
+        world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
     hit.a = world.colliders.id(pair.collider_a());
     hit.b = world.colliders.id(pair.collider_b());
     hit.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
     hit.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
-    hit.point = to_public_position(world.bodies.pose[reference].x + cast<PosReal>((Real(1) / impulse) * place));
+    hit.point = to_public_position(world.bodies.pose[reference].x +
+                                   cast<PosReal>((Real(1) / impulse) * place));
     hit.normal = to_public(row.n);
     hit.approach_speed = row.approach_speed;
     hit.impulse = impulse;
@@ -113,9 +122,10 @@ void finalize_bodies(WorldState& world) {
   std::vector<std::uint8_t> unsound(bodies.awake_end, 0);
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end; ++i)
-      unsound[i] = move_body(world, i) ? 0 : 1;
-  });
+                 for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;
+                      ++i)
+                   unsound[i] = move_body(world, i) ? 0 : 1;
+               });
   std::vector<std::uint32_t> to_quarantine;
   std::vector<std::uint32_t>& moved = world.moved;
   moved.clear();
@@ -125,10 +135,12 @@ void finalize_bodies(WorldState& world) {
   std::sort(moved.begin(), moved.end());
   for (const std::uint32_t body : to_quarantine) quarantine(world, body);
   for (const std::uint32_t body : moved) {
-    for (const std::uint32_t collider : bodies.info[body].colliders) update_proxy(world, collider, false);
+    for (const std::uint32_t collider : bodies.info[body].colliders)
+      update_proxy(world, collider, false);
     // A kinematic body that has been told to stand still costs nothing.
     const std::uint32_t dense = bodies.info[body].dense;
-    if (bodies.info[body].type == MotionType::Kinematic && length_squared(bodies.velocity[dense].v) == Real(0) &&
+    if (bodies.info[body].type == MotionType::Kinematic &&
+        length_squared(bodies.velocity[dense].v) == Real(0) &&
         length_squared(bodies.velocity[dense].w) == Real(0))
       bodies.rest(body);
   }

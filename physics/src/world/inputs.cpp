@@ -1,7 +1,8 @@
 // Inputs as numbers. Layouts (x3: three numbers; u64: low and high 32 bits):
 //
 //   body       type, position x3, orientation xyzw x4, v x3, w x3, has mass [mass], six locks,
-//              linear damping, angular damping, gravity scale, can sleep, starts awake, user data u64
+//              linear damping, angular damping, gravity scale, can sleep, starts awake, user data
+//              u64
 //   mass       mass, centre x3, inertia xx yy zz xy xz yz
 //   collider   shape, position x3, orientation x4, friction, restitution, two rules, layers,
 //              collides with, density, is sensor, user data u64
@@ -18,24 +19,42 @@ namespace plumb::inline PLUMB_ABI {
 
 const char* name_of(InputKind kind) {
   switch (kind) {
-    case InputKind::CreateBody: return "create_body";
-    case InputKind::DestroyBody: return "destroy_body";
-    case InputKind::CreateCollider: return "create_collider";
-    case InputKind::DestroyCollider: return "destroy_collider";
-    case InputKind::SetPose: return "set_pose";
-    case InputKind::SetLinearVelocity: return "set_linear_velocity";
-    case InputKind::SetAngularVelocity: return "set_angular_velocity";
-    case InputKind::SetMass: return "set_mass";
-    case InputKind::ApplyForce: return "apply_force";
-    case InputKind::ApplyForceAt: return "apply_force_at";
-    case InputKind::ApplyForceAtBodyPoint: return "apply_force_at_body_point";
-    case InputKind::ApplyTorque: return "apply_torque";
-    case InputKind::ApplyImpulse: return "apply_impulse";
-    case InputKind::ApplyImpulseAt: return "apply_impulse_at";
-    case InputKind::ApplyImpulseAtBodyPoint: return "apply_impulse_at_body_point";
-    case InputKind::ApplyAngularImpulse: return "apply_angular_impulse";
-    case InputKind::SetAwake: return "set_awake";
-    case InputKind::SetSettings: return "set_settings";
+    case InputKind::CreateBody:
+      return "create_body";
+    case InputKind::DestroyBody:
+      return "destroy_body";
+    case InputKind::CreateCollider:
+      return "create_collider";
+    case InputKind::DestroyCollider:
+      return "destroy_collider";
+    case InputKind::SetPose:
+      return "set_pose";
+    case InputKind::SetLinearVelocity:
+      return "set_linear_velocity";
+    case InputKind::SetAngularVelocity:
+      return "set_angular_velocity";
+    case InputKind::SetMass:
+      return "set_mass";
+    case InputKind::ApplyForce:
+      return "apply_force";
+    case InputKind::ApplyForceAt:
+      return "apply_force_at";
+    case InputKind::ApplyForceAtBodyPoint:
+      return "apply_force_at_body_point";
+    case InputKind::ApplyTorque:
+      return "apply_torque";
+    case InputKind::ApplyImpulse:
+      return "apply_impulse";
+    case InputKind::ApplyImpulseAt:
+      return "apply_impulse_at";
+    case InputKind::ApplyImpulseAtBodyPoint:
+      return "apply_impulse_at_body_point";
+    case InputKind::ApplyAngularImpulse:
+      return "apply_angular_impulse";
+    case InputKind::SetAwake:
+      return "set_awake";
+    case InputKind::SetSettings:
+      return "set_settings";
   }
   return "unknown";
 }
@@ -76,8 +95,10 @@ void append_shape(std::vector<double>& out, const Shape& shape) {
 
 Shape read_shape(NumberReader& in, bool& ok) {
   switch (in.word()) {
-    case 0: return Sphere{in.real()};
-    case 1: return Box{in.vector()};
+    case 0:
+      return Sphere{in.real()};
+    case 1:
+      return Box{in.vector()};
     case 2: {
       const Real half_length = in.real();
       return Capsule{half_length, in.real()};
@@ -99,7 +120,8 @@ Shape read_shape(NumberReader& in, bool& ok) {
       const Vec3 normal = in.vector();
       return HalfSpace{normal, in.real()};
     }
-    default: break;
+    default:
+      break;
   }
   ok = false;
   return Sphere{};
@@ -118,14 +140,16 @@ void append(std::vector<double>& out, const Vec3& v) {
   append_all(out, {as_number(v.x()), as_number(v.y()), as_number(v.z())});
 }
 void append_position(std::vector<double>& out, const Pos3& p) {
-  append_all(out, {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())});
+  append_all(out,
+             {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())});
 }
 void append(std::vector<double>& out, const Quat& q) {
   append_all(out, {as_number(q.x()), as_number(q.y()), as_number(q.z()), as_number(q.w())});
 }
 void append(std::vector<double>& out, const MassProperties& m) {
   const Eigen::Matrix3d& I = m.I_Bcm_B;
-  append_all(out, {m.mass, m.center.x(), m.center.y(), m.center.z(), I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)});
+  append_all(out, {m.mass, m.center.x(), m.center.y(), m.center.z(), I(0, 0), I(1, 1), I(2, 2),
+                   I(0, 1), I(0, 2), I(1, 2)});
 }
 void append(std::vector<double>& out, const RigidBody& body) {
   append_all(out, {static_cast<double>(body.type)});
@@ -136,10 +160,12 @@ void append(std::vector<double>& out, const RigidBody& body) {
   append_all(out, {body.mass.has_value() ? 1.0 : 0.0});
   if (body.mass.has_value()) append(out, *body.mass);
   const MotionLocks& k = body.locks;
-  for (const bool lock : {k.linear_x, k.linear_y, k.linear_z, k.angular_x, k.angular_y, k.angular_z})
+  for (const bool lock :
+       {k.linear_x, k.linear_y, k.linear_z, k.angular_x, k.angular_y, k.angular_z})
     append_all(out, {lock ? 1.0 : 0.0});
-  append_all(out, {as_number(body.linear_damping), as_number(body.angular_damping), as_number(body.gravity_scale),
-                   body.can_sleep ? 1.0 : 0.0, body.starts_awake ? 1.0 : 0.0});
+  append_all(out, {as_number(body.linear_damping), as_number(body.angular_damping),
+                   as_number(body.gravity_scale), body.can_sleep ? 1.0 : 0.0,
+                   body.starts_awake ? 1.0 : 0.0});
   append_long(out, body.user_data);
 }
 void append(std::vector<double>& out, const Collider& collider) {
@@ -147,16 +173,19 @@ void append(std::vector<double>& out, const Collider& collider) {
   append(out, collider.pose.position);
   append(out, collider.pose.orientation);
   const Material& m = collider.material;
-  append_all(out, {as_number(m.friction), as_number(m.restitution), static_cast<double>(m.friction_rule),
-                   static_cast<double>(m.restitution_rule), static_cast<double>(collider.filter.layers),
-                   static_cast<double>(collider.filter.collides_with), collider.density, collider.is_sensor ? 1.0 : 0.0});
+  append_all(out,
+             {as_number(m.friction), as_number(m.restitution), static_cast<double>(m.friction_rule),
+              static_cast<double>(m.restitution_rule), static_cast<double>(collider.filter.layers),
+              static_cast<double>(collider.filter.collides_with), collider.density,
+              collider.is_sensor ? 1.0 : 0.0});
   append_long(out, collider.user_data);
 }
 void append(std::vector<double>& out, const WorldSettings& s) {
   append(out, s.gravity);
-  append_all(out, {static_cast<double>(s.substeps), as_number(s.contact_frequency), as_number(s.contact_damping_ratio),
-                   static_cast<double>(s.rotation), s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0,
-                   as_number(s.time_to_sleep), s.profiling ? 1.0 : 0.0});
+  append_all(out, {static_cast<double>(s.substeps), as_number(s.contact_frequency),
+                   as_number(s.contact_damping_ratio), static_cast<double>(s.rotation),
+                   s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0, as_number(s.time_to_sleep),
+                   s.profiling ? 1.0 : 0.0});
 }
 
 double NumberReader::number() {
@@ -209,7 +238,9 @@ RigidBody NumberReader::body() {
   body.angular_velocity = vector();
   if (flag()) body.mass = mass();
   MotionLocks& k = body.locks;
-  for (bool* lock : {&k.linear_x, &k.linear_y, &k.linear_z, &k.angular_x, &k.angular_y, &k.angular_z}) *lock = flag();
+  for (bool* lock :
+       {&k.linear_x, &k.linear_y, &k.linear_z, &k.angular_x, &k.angular_y, &k.angular_z})
+    *lock = flag();
   body.linear_damping = real();
   body.angular_damping = real();
   body.gravity_scale = real();
@@ -253,14 +284,16 @@ WorldSettings NumberReader::settings() {
 Status PhysicsWorld::apply_input(const InputRecord& input) {
   detail::NumberReader in(input.numbers);
   const BodyId body = BodyId::from_value(input.target);
-  const Status malformed{StatusCode::BadSnapshot, "the recorded input does not have the numbers of its kind"};
+  const Status malformed{StatusCode::BadSnapshot,
+                         "the recorded input does not have the numbers of its kind"};
   // Everything is read before anything is done, so that a malformed record changes nothing.
   switch (input.kind) {
     case InputKind::CreateBody: {
       const RigidBody made = in.body();
       return in.complete() ? create_body(made).status : malformed;
     }
-    case InputKind::DestroyBody: return in.complete() ? destroy_body(body) : malformed;
+    case InputKind::DestroyBody:
+      return in.complete() ? destroy_body(body) : malformed;
     case InputKind::CreateCollider: {
       const Collider made = in.collider();
       return in.complete() ? create_collider(body, made).status : malformed;
@@ -290,27 +323,37 @@ Status PhysicsWorld::apply_input(const InputRecord& input) {
       const Vec3 v = in.vector();
       const Pos3 p = in.position();
       if (!in.complete()) return malformed;
-      return input.kind == InputKind::ApplyForceAt ? apply_force_at(body, v, p) : apply_impulse_at(body, v, p);
+      return input.kind == InputKind::ApplyForceAt ? apply_force_at(body, v, p)
+                                                   : apply_impulse_at(body, v, p);
     }
     case InputKind::ApplyForceAtBodyPoint:
     case InputKind::ApplyImpulseAtBodyPoint: {
       const Vec3 v = in.vector(), p = in.vector();
       if (!in.complete()) return malformed;
-      return input.kind == InputKind::ApplyForceAtBodyPoint ? apply_force_at_body_point(body, v, p)
-                                                            : apply_impulse_at_body_point(body, v, p);
+      return input.kind == InputKind::ApplyForceAtBodyPoint
+                 ? apply_force_at_body_point(body, v, p)
+                 : apply_impulse_at_body_point(body, v, p);
     }
-    default: break;
+    default:
+      break;
   }
   const Vec3 v = in.vector();
   if (!in.complete()) return malformed;
   switch (input.kind) {
-    case InputKind::SetLinearVelocity: return set_linear_velocity(body, v);
-    case InputKind::SetAngularVelocity: return set_angular_velocity(body, v);
-    case InputKind::ApplyForce: return apply_force(body, v);
-    case InputKind::ApplyTorque: return apply_torque(body, v);
-    case InputKind::ApplyImpulse: return apply_impulse(body, v);
-    case InputKind::ApplyAngularImpulse: return apply_angular_impulse(body, v);
-    default: return {StatusCode::BadSnapshot, "the recorded input is of an unknown kind"};
+    case InputKind::SetLinearVelocity:
+      return set_linear_velocity(body, v);
+    case InputKind::SetAngularVelocity:
+      return set_angular_velocity(body, v);
+    case InputKind::ApplyForce:
+      return apply_force(body, v);
+    case InputKind::ApplyTorque:
+      return apply_torque(body, v);
+    case InputKind::ApplyImpulse:
+      return apply_impulse(body, v);
+    case InputKind::ApplyAngularImpulse:
+      return apply_angular_impulse(body, v);
+    default:
+      return {StatusCode::BadSnapshot, "the recorded input is of an unknown kind"};
   }
 }
 

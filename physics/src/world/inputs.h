@@ -31,8 +31,8 @@ class NumberReader {
   double number();
   Real real() { return static_cast<Real>(number()); }
   bool flag() { return number() != 0; }
-  std::uint32_t word();                // 32-bit
-  std::uint64_t long_word();           // two numbers: low, high
+  std::uint32_t word();       // 32-bit
+  std::uint64_t long_word();  // two numbers: low, high
   Vec3 vector();
   Pos3 position();
   Quat orientation();

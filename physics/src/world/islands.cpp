@@ -55,10 +55,12 @@ void update_rest_time(WorldState& world, std::uint32_t dense) {
   if (info.type != MotionType::Dynamic) return;
   const BodyVelocity& velocity = world.bodies.velocity[dense];
   const Real speed = length(velocity.v) + length(velocity.w) * info.radius;
-  // What nothing supports is not at rest, however slow it is at the moment: it floats or turns back.
+  // What nothing supports is not at rest, however slow it is at the moment: it floats or turns
+  // back.
   const bool supported = world.substep[dense].constrained;
   const Real limit = rest_speed(world, info, world.bodies.mass[dense].gravity_scale);
-  const bool still = length_squared(velocity.v) == Real(0) && length_squared(velocity.w) == Real(0) &&
+  const bool still = length_squared(velocity.v) == Real(0) &&
+                     length_squared(velocity.w) == Real(0) &&
                      length_squared(world.substep[dense].acceleration) == Real(0);
   const bool rests = info.can_sleep && (supported ? speed < limit : still);
   info.rest_time = rests ? info.rest_time + world.dt : Real(0);
@@ -90,15 +92,16 @@ void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
   }
 }
 
-// Takes the touching pairs of all bodies that just fell asleep out of the awake ones. A pair that only
-// has overlapping bounds is forgotten; waking seeks it again.
+// Takes the touching pairs of all bodies that just fell asleep out of the awake ones. A pair that
+// only has overlapping bounds is forgotten; waking seeks it again.
 void move_pairs_to_islands(WorldState& world) {
   world.pairs.remove_if([&](const Pair& pair) {
     const std::uint32_t in_a = world.bodies.info[pair.body_a].island;
     const std::uint32_t in_b = world.bodies.info[pair.body_b].island;
     if (in_a == kNone && in_b == kNone) return false;
     if (world.bodies.is_awake(pair.body_a) || world.bodies.is_awake(pair.body_b)) return false;
-    if (pair.was_touching || pair.touching) world.islands[in_a != kNone ? in_a : in_b].pairs.push_back(pair);
+    if (pair.was_touching || pair.touching)
+      world.islands[in_a != kNone ? in_a : in_b].pairs.push_back(pair);
     return true;
   });
 }
@@ -165,20 +168,23 @@ void sleep_islands(WorldState& world) {
   std::sort(awake.begin(), awake.end());
   for (const std::uint32_t body : awake) {
     const std::uint32_t root = find_root(world.parents, body);
-    bodies.info[root].rest_time = std::min(bodies.info[root].rest_time, bodies.info[body].rest_time);
+    bodies.info[root].rest_time =
+        std::min(bodies.info[root].rest_time, bodies.info[body].rest_time);
     if (root == body) ++world.report.islands;
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // root, body
   for (const std::uint32_t body : awake) {
     const std::uint32_t root = find_root(world.parents, body);
-    if (bodies.info[root].rest_time >= world.settings.time_to_sleep) resting.emplace_back(root, body);
+    if (bodies.info[root].rest_time >= world.settings.time_to_sleep)
+      resting.emplace_back(root, body);
   }
   if (resting.empty()) return;
   std::sort(resting.begin(), resting.end());
   for (std::size_t i = 0; i < resting.size();) {
     std::vector<std::uint32_t> members;
     const std::uint32_t root = resting[i].first;
-    for (; i < resting.size() && resting[i].first == root; ++i) members.push_back(resting[i].second);
+    for (; i < resting.size() && resting[i].first == root; ++i)
+      members.push_back(resting[i].second);
     store_island(world, std::move(members));
   }
   move_pairs_to_islands(world);
@@ -194,7 +200,8 @@ void put_to_sleep(WorldState& world, std::uint32_t body) {
   const std::uint32_t root = find_root(world.parents, body);
   for (std::uint32_t dense = world.bodies.awake_begin; dense < world.bodies.awake_end; ++dense) {
     const std::uint32_t other = world.bodies.slot_of[dense];
-    if (is_dynamic(world, other) && find_root(world.parents, other) == root) members.push_back(other);
+    if (is_dynamic(world, other) && find_root(world.parents, other) == root)
+      members.push_back(other);
   }
   std::sort(members.begin(), members.end());
   store_island(world, std::move(members));

@@ -68,9 +68,9 @@ Real reach_of(const WorldState& world, const Pair& pair) {
   return world.dt * (speed + world.dt * g);
 }
 
-// Fast pairs: conservative advancement along the relative path of the step (without rotation) to the
-// first touch [Mirtich 1996], and the manifold there. Returns false when the pair is slow, or when
-// nothing meets; the ordinary manifold serves then.
+// Fast pairs: conservative advancement along the relative path of the step (without rotation) to
+// the first touch [Mirtich 1996], and the manifold there. Returns false when the pair is slow, or
+// when nothing meets; the ordinary manifold serves then.
 bool collide_swept(const WorldState& world, Pair& pair, const ColliderInfo& a, const Transform& xa,
                    const ColliderInfo& b, const Transform& xb, Real margin) {
   const BodyInfo& info_a = world.bodies.info[pair.body_a];
@@ -123,9 +123,11 @@ void collide_pair(WorldState& world, std::size_t index) {
     pair.manifold.count = 0;
     return;
   }
-  const PosVec reference = bodies.pose[bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense].x;
+  const PosVec reference =
+      bodies.pose[bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense].x;
   const Transform xa = placed_from(world, a, reference), xb = placed_from(world, b, reference);
-  const Real margin = pair.sensor ? Real(0) : tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
+  const Real margin =
+      pair.sensor ? Real(0) : tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
   const Manifold old = pair.manifold;
   pair.manifold.count = 0;
   pair.advance = {0, 0, 0};
@@ -142,8 +144,8 @@ void collide_pair(WorldState& world, std::size_t index) {
 void collide_range(WorldState& world, const std::vector<std::uint32_t>& which) {
   parallel_for(world, static_cast<std::uint32_t>(which.size()), tolerance::kPairGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) collide_pair(world, which[i]);
-  });
+                 for (std::uint32_t i = begin; i < end; ++i) collide_pair(world, which[i]);
+               });
 }
 
 // Sleeping dynamic bodies that something awake has reached.
@@ -182,13 +184,18 @@ void collide_pairs(WorldState& world) {
   world.pairs.remove_if([&](const Pair& pair) {
     const bool gone = world.pair_gone[index++] != 0;
     if (gone && pair.was_touching) {
-      const ColliderId a = world.colliders.id(pair.collider_a()), b = world.colliders.id(pair.collider_b());
+      const ColliderId a = world.colliders.id(pair.collider_a()),
+                       b = world.colliders.id(pair.collider_b());
       if (pair.sensor) {
         const bool a_senses = world.colliders.info[a.index].component.is_sensor;
-        world.gathering.sensors.push_back({SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
+        world.gathering.sensors.push_back(
+            {SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
       } else {
         world.gathering.contacts.push_back(
-            {ContactEvent::Kind::End, a, b, {pair.body_a, world.bodies.info[pair.body_a].generation},
+            {ContactEvent::Kind::End,
+             a,
+             b,
+             {pair.body_a, world.bodies.info[pair.body_a].generation},
              {pair.body_b, world.bodies.info[pair.body_b].generation}});
       }
     }
@@ -206,7 +213,8 @@ void collide_pairs(WorldState& world) {
     if (length_squared(pair.advance) > Real(0)) ++world.report.continuous;
     for (int k = 0; k < pair.manifold.count; ++k) {
       const Real depth = -pair.manifold.points[k].separation;
-      world.report.largest_penetration = std::max(world.report.largest_penetration, static_cast<double>(depth));
+      world.report.largest_penetration =
+          std::max(world.report.largest_penetration, static_cast<double>(depth));
       world.deep_overlap = world.deep_overlap || depth > tolerance::kDeepSlops * pair.slop;
     }
   }

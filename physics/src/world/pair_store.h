@@ -1,5 +1,5 @@
-// Pairs of colliders whose bounds overlap, and what is remembered of their contact. The awake ones are
-// kept sorted by key, so that every stage meets them in the same order whatever the history.
+// Pairs of colliders whose bounds overlap, and what is remembered of their contact. The awake ones
+// are kept sorted by key, so that every stage meets them in the same order whatever the history.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@
 namespace plumb::inline PLUMB_ABI::detail {
 
 struct Pair {
-  std::uint64_t key = 0;            // smaller collider slot << 32 | larger one
+  std::uint64_t key = 0;                 // smaller collider slot << 32 | larger one
   std::uint32_t body_a = 0, body_b = 0;  // slots
   Real friction = 0, restitution = 0;    // combined [-]
-  Real slop = 0;                    // [m]
+  Real slop = 0;                         // [m]
   bool sensor = false;
-  bool touching = false;            // has points (sensor: overlaps)
-  bool was_touching = false;        // after the previous step
-  bool at_rest = false;             // the contact solver, not a bounce, carried it in the last substep
-  bool relative_to_b = false;       // else to A
-  // A swept pair's manifold is that of the moment of first touch: B is then this much farther along,
-  // seen from A [m], and the separations are those of the step's start again.
+  bool touching = false;       // has points (sensor: overlaps)
+  bool was_touching = false;   // after the previous step
+  bool at_rest = false;        // the contact solver, not a bounce, carried it in the last substep
+  bool relative_to_b = false;  // else to A
+  // A swept pair's manifold is that of the moment of first touch: B is then this much farther
+  // along, seen from A [m], and the separations are those of the step's start again.
   Vec advance{0, 0, 0};
-  Real advanced_gap = 0;            // [m] what that added to the separations
-  Manifold manifold;                // positions from that body's centre of mass, world axes
-  Real normal_impulse[Manifold::kMaxPoints]{};   // [N s] of the last substep: the warm start
-  Vec friction_impulse[Manifold::kMaxPoints]{};  // [N s] on B, world axes
+  Real advanced_gap = 0;  // [m] what that added to the separations
+  Manifold manifold;      // positions from that body's centre of mass, world axes
+  Real normal_impulse[Manifold::kMaxPoints]{};       // [N s] of the last substep: the warm start
+  Vec friction_impulse[Manifold::kMaxPoints]{};      // [N s] on B, world axes
   Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step
   Vec step_friction_impulse[Manifold::kMaxPoints]{};
 

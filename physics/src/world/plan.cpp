@@ -1,4 +1,5 @@
-// The plan: what the coming step needs, from a few counts, and the same in words when somebody asks.
+// The plan: what the coming step needs, from a few counts, and the same in words when somebody
+// asks.
 #include "plumb/plan.h"
 
 #include <algorithm>
@@ -12,36 +13,60 @@ namespace plumb::inline PLUMB_ABI {
 
 const char* name_of(PlanItem item) {
   switch (item) {
-    case PlanItem::Gravity: return "gravity";
-    case PlanItem::Forces: return "forces";
-    case PlanItem::Damping: return "damping";
-    case PlanItem::Gyroscopic: return "gyroscopic";
-    case PlanItem::MotionLocks: return "motion locks";
-    case PlanItem::Contacts: return "contacts";
-    case PlanItem::Friction: return "friction";
-    case PlanItem::Restitution: return "restitution";
-    case PlanItem::Continuous: return "look-ahead";
-    case PlanItem::Sensors: return "sensors";
-    case PlanItem::Sleeping: return "sleeping";
-    case PlanItem::DoublePositions: return "double positions";
-    case PlanItem::Count: break;
+    case PlanItem::Gravity:
+      return "gravity";
+    case PlanItem::Forces:
+      return "forces";
+    case PlanItem::Damping:
+      return "damping";
+    case PlanItem::Gyroscopic:
+      return "gyroscopic";
+    case PlanItem::MotionLocks:
+      return "motion locks";
+    case PlanItem::Contacts:
+      return "contacts";
+    case PlanItem::Friction:
+      return "friction";
+    case PlanItem::Restitution:
+      return "restitution";
+    case PlanItem::Continuous:
+      return "look-ahead";
+    case PlanItem::Sensors:
+      return "sensors";
+    case PlanItem::Sleeping:
+      return "sleeping";
+    case PlanItem::DoublePositions:
+      return "double positions";
+    case PlanItem::Count:
+      break;
   }
   return "";
 }
 
 const char* name_of(Stage stage) {
   switch (stage) {
-    case Stage::Plan: return "plan";
-    case Stage::Broadphase: return "broadphase";
-    case Stage::Narrowphase: return "narrowphase";
-    case Stage::Islands: return "islands";
-    case Stage::Coloring: return "coloring";
-    case Stage::Rows: return "rows";
-    case Stage::Impacts: return "impacts";
-    case Stage::Substeps: return "substeps";
-    case Stage::Finalize: return "finalize";
-    case Stage::Sleep: return "sleep";
-    case Stage::Count: break;
+    case Stage::Plan:
+      return "plan";
+    case Stage::Broadphase:
+      return "broadphase";
+    case Stage::Narrowphase:
+      return "narrowphase";
+    case Stage::Islands:
+      return "islands";
+    case Stage::Coloring:
+      return "coloring";
+    case Stage::Rows:
+      return "rows";
+    case Stage::Impacts:
+      return "impacts";
+    case Stage::Substeps:
+      return "substeps";
+    case Stage::Finalize:
+      return "finalize";
+    case Stage::Sleep:
+      return "sleep";
+    case Stage::Count:
+      break;
   }
   return "";
 }
@@ -66,7 +91,8 @@ namespace {
 
 struct Tally {
   std::uint32_t dynamic = 0, kinematic = 0, fixed = 0, awake = 0;
-  std::uint32_t forced = 0, damped = 0, isotropic = 0, symmetric = 0, asymmetric = 0, unturnable = 0;
+  std::uint32_t forced = 0, damped = 0, isotropic = 0, symmetric = 0, asymmetric = 0,
+                unturnable = 0;
   std::uint32_t locked = 0, frictional = 0, bouncing = 0, sensors = 0, weightless = 0;
 };
 
@@ -86,16 +112,23 @@ Tally tally(const WorldState& world) {
     if (length_squared(f.force) > Real(0) || length_squared(f.torque) > Real(0)) ++t.forced;
     if (f.linear_damping > Real(0) || f.angular_damping > Real(0)) ++t.damped;
     if (m.gravity_scale == Real(0)) ++t.weightless;
-    const bool locked = m.angular_locks != 0 || info.locks.linear_x || info.locks.linear_y || info.locks.linear_z;
+    const bool locked =
+        m.angular_locks != 0 || info.locks.linear_x || info.locks.linear_y || info.locks.linear_z;
     if (locked) ++t.locked;
     if (m.angular_locks != 0 || length_squared(m.moments) == Real(0)) {
       ++t.unturnable;
       continue;
     }
     switch (classify_inertia(m.moments)) {
-      case RotationKind::Isotropic: ++t.isotropic; break;
-      case RotationKind::Symmetric: ++t.symmetric; break;
-      case RotationKind::Asymmetric: ++t.asymmetric; break;
+      case RotationKind::Isotropic:
+        ++t.isotropic;
+        break;
+      case RotationKind::Symmetric:
+        ++t.symmetric;
+        break;
+      case RotationKind::Asymmetric:
+        ++t.asymmetric;
+        break;
     }
   }
   for (const ColliderInfo& collider : world.colliders.info) {
@@ -128,25 +161,35 @@ StepPlan PhysicsWorld::plan() const {
   decide(PlanItem::Gravity, gravity && t.dynamic > t.weightless,
          gravity ? detail::of(t.dynamic - t.weightless, t.dynamic, "dynamic bodies have weight")
                  : "the gravity of the settings is zero");
-  decide(PlanItem::Forces, t.forced > 0, detail::of(t.forced, t.dynamic, "dynamic bodies have a force or torque waiting"));
-  decide(PlanItem::Damping, t.damped > 0, detail::of(t.damped, t.dynamic, "dynamic bodies are damped"));
-  const bool gyro = world.settings.rotation != RotationMethod::Book && t.symmetric + t.asymmetric > 0;
-  decide(PlanItem::Gyroscopic, gyro,
-         detail::of(t.symmetric + t.asymmetric, t.dynamic, "dynamic bodies have unequal moments (") +
-             std::to_string(t.isotropic) + " isotropic, " + std::to_string(t.unturnable) + " do not turn freely)");
-  decide(PlanItem::MotionLocks, t.locked > 0, detail::of(t.locked, t.dynamic, "dynamic bodies have a locked axis"));
+  decide(PlanItem::Forces, t.forced > 0,
+         detail::of(t.forced, t.dynamic, "dynamic bodies have a force or torque waiting"));
+  decide(PlanItem::Damping, t.damped > 0,
+         detail::of(t.damped, t.dynamic, "dynamic bodies are damped"));
+  const bool gyro =
+      world.settings.rotation != RotationMethod::Book && t.symmetric + t.asymmetric > 0;
+  decide(
+      PlanItem::Gyroscopic, gyro,
+      detail::of(t.symmetric + t.asymmetric, t.dynamic, "dynamic bodies have unequal moments (") +
+          std::to_string(t.isotropic) + " isotropic, " + std::to_string(t.unturnable) +
+          " do not turn freely)");
+  decide(PlanItem::MotionLocks, t.locked > 0,
+         detail::of(t.locked, t.dynamic, "dynamic bodies have a locked axis"));
   const std::uint32_t pairs = static_cast<std::uint32_t>(world.pairs.size());
   decide(PlanItem::Contacts, pairs > 0 || !world.query_list.empty(),
          std::to_string(pairs) + " awake pairs have overlapping bounds, " +
              std::to_string(world.query_list.size()) + " colliders seek new ones");
-  decide(PlanItem::Friction, t.frictional > 0, std::to_string(t.frictional) + " colliders have friction");
+  decide(PlanItem::Friction, t.frictional > 0,
+         std::to_string(t.frictional) + " colliders have friction");
   decide(PlanItem::Restitution, t.bouncing > 0,
-         t.bouncing > 0 ? std::to_string(t.bouncing) + " colliders bounce" : "no collider has restitution");
-  decide(PlanItem::Continuous, t.awake > 0, "contacts look one step ahead of " + std::to_string(t.awake) + " awake bodies");
+         t.bouncing > 0 ? std::to_string(t.bouncing) + " colliders bounce"
+                        : "no collider has restitution");
+  decide(PlanItem::Continuous, t.awake > 0,
+         "contacts look one step ahead of " + std::to_string(t.awake) + " awake bodies");
   decide(PlanItem::Sensors, t.sensors > 0, std::to_string(t.sensors) + " colliders are sensors");
   decide(PlanItem::Sleeping, world.settings.sleeping,
-         world.settings.sleeping ? detail::of(t.awake, t.dynamic + t.kinematic, "moving bodies are awake")
-                                 : "switched off in the settings");
+         world.settings.sleeping
+             ? detail::of(t.awake, t.dynamic + t.kinematic, "moving bodies are awake")
+             : "switched off in the settings");
   constexpr bool kDouble = !std::is_same_v<PosReal, float>;
   decide(PlanItem::DoublePositions, kDouble, std::string("this build is ") + kPrecisionName);
   return plan;

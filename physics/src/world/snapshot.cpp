@@ -1,102 +1,21 @@
-// Saving and restoring a world as named columns, and the digest of its state.
+// Saving and restoring a world as named columns.
 //
-// One visitor per table lists its columns once; saving, restoring and their order all follow from it.
+// One visitor per table lists its columns once; saving, restoring and their order all follow from
+// it.
 #include "plumb/snapshot.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <tuple>
-#include <type_traits>
 
 #include "collision/collide.h"
 #include "math/eigen_bridge.h"
 #include "world/inputs.h"
+#include "world/snapshot_table.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
-
-// Appends rows to columns that it makes with the first row.
-class TableWriter {
- public:
-  TableWriter(Snapshot& out, const char* table) : out_(out), table_(table), first_(out.columns.size()) {}
-  void next_row() { cursor_ = first_; }
-  template <class... T>
-  void operator()(const char* name, T&... values) {
-    using First = std::tuple_element_t<0, std::tuple<T...>>;
-    constexpr bool kIsReal = std::is_floating_point_v<First>;
-    if (cursor_ == out_.columns.size()) {
-      SnapshotColumn column;
-      column.name = std::string(table_) + "." + name;
-      column.width = sizeof...(T);
-      column.type = kIsReal ? SnapshotColumn::Type::Float64 : SnapshotColumn::Type::Uint64;
-      out_.columns.push_back(std::move(column));
-    }
-    SnapshotColumn& column = out_.columns[cursor_++];
-    if constexpr (kIsReal) {
-      (column.reals.push_back(static_cast<double>(values)), ...);
-    } else {
-      (column.integers.push_back(static_cast<std::uint64_t>(values)), ...);
-    }
-  }
-
- private:
-  Snapshot& out_;
-  const char* table_;
-  std::size_t first_, cursor_ = 0;
-};
-
-// Reads rows of the same columns; every mismatch makes it fail, never read outside.
-class TableReader {
- public:
-  TableReader(const Snapshot& in, const char* table) : in_(in), prefix_(std::string(table) + ".") {
-    while (first_ < in.columns.size() && in.columns[first_].name.rfind(prefix_, 0) != 0) ++first_;
-    if (first_ < in.columns.size()) {
-      const SnapshotColumn& c = in.columns[first_];
-      const std::size_t size = c.type == SnapshotColumn::Type::Float64 ? c.reals.size() : c.integers.size();
-      rows_ = c.width > 0 ? size / c.width : 0;
-    }
-  }
-  [[nodiscard]] std::size_t rows() const { return rows_; }
-  [[nodiscard]] bool ok() const { return ok_; }
-  void next_row() {
-    cursor_ = first_;
-    row_ = started_ ? row_ + 1 : 0;
-    started_ = true;
-  }
-  template <class... T>
-  void operator()(const char* name, T&... values) {
-    using First = std::tuple_element_t<0, std::tuple<T...>>;
-    constexpr bool kIsReal = std::is_floating_point_v<First>;
-    constexpr std::size_t kWidth = sizeof...(T);
-    if (cursor_ >= in_.columns.size()) {
-      ok_ = false;
-      return;
-    }
-    const SnapshotColumn& column = in_.columns[cursor_++];
-    const bool real_column = column.type == SnapshotColumn::Type::Float64;
-    const std::size_t size = real_column ? column.reals.size() : column.integers.size();
-    if (column.name != prefix_ + name || column.width != kWidth || real_column != kIsReal || size != rows_ * kWidth ||
-        row_ >= rows_) {
-      ok_ = false;
-      return;
-    }
-    std::size_t at = row_ * kWidth;
-    if constexpr (kIsReal) {
-      ((values = static_cast<T>(column.reals[at++])), ...);
-    } else {
-      ((values = static_cast<T>(column.integers[at++])), ...);
-    }
-  }
-
- private:
-  const Snapshot& in_;
-  std::string prefix_;
-  std::size_t first_ = 0, cursor_ = 0, rows_ = 0, row_ = 0;
-  bool started_ = false, ok_ = true;
-};
 
 template <class Table>
 void visit_world(Table& t, WorldState& world) {
@@ -113,12 +32,13 @@ void visit_world(Table& t, WorldState& world) {
 }
 
 template <class Table>
-void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentum& m, BodyForce& f, Real& gravity_scale,
-                bool& awake) {
+void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentum& m, BodyForce& f,
+                Real& gravity_scale, bool& awake) {
   t("generation", i.generation);
   t("flags", i.alive, i.disabled, i.has_own_mass, i.can_sleep, awake);
   t("type", i.type);
-  t("locks", i.locks.linear_x, i.locks.linear_y, i.locks.linear_z, i.locks.angular_x, i.locks.angular_y, i.locks.angular_z);
+  t("locks", i.locks.linear_x, i.locks.linear_y, i.locks.linear_z, i.locks.angular_x,
+    i.locks.angular_y, i.locks.angular_z);
   t("island", i.island);
   t("rest_time", i.rest_time);
   t("position", x.x.x, x.x.y, x.x.z);
@@ -198,7 +118,8 @@ void add_list(Snapshot& out, const char* name, const std::vector<std::uint32_t>&
   column.integers.assign(values.begin(), values.end());
   out.columns.push_back(std::move(column));
 }
-bool read_list(const Snapshot& in, const char* name, std::vector<std::uint32_t>& values, std::size_t limit) {
+bool read_list(const Snapshot& in, const char* name, std::vector<std::uint32_t>& values,
+               std::size_t limit) {
   const SnapshotColumn* column = in.find(name);
   if (column == nullptr || column->type != SnapshotColumn::Type::Uint64) return false;
   values.clear();
@@ -244,7 +165,8 @@ bool restore_hulls(const Snapshot& in, std::vector<std::shared_ptr<const HullGeo
   return at == numbers->reals.size();
 }
 
-ShapeNumbers numbers_of(const Shape& shape, std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
+ShapeNumbers numbers_of(const Shape& shape,
+                        std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
   ShapeNumbers s;
   s.type = static_cast<std::uint32_t>(shape.index());
   const auto set = [&](double a, double b = 0, double c = 0, double d = 0) {
@@ -269,18 +191,28 @@ ShapeNumbers numbers_of(const Shape& shape, std::vector<std::shared_ptr<const Hu
   return s;
 }
 
-bool shape_from(const ShapeNumbers& s, const std::vector<std::shared_ptr<const HullGeometry>>& hulls, Shape& out) {
+bool shape_from(const ShapeNumbers& s,
+                const std::vector<std::shared_ptr<const HullGeometry>>& hulls, Shape& out) {
   const auto real = [&](int i) { return static_cast<Real>(s.n[i]); };
   switch (s.type) {
-    case 0: out = Sphere{real(0)}; return true;
-    case 1: out = Box{Vec3(real(0), real(1), real(2))}; return true;
-    case 2: out = Capsule{real(0), real(1)}; return true;
+    case 0:
+      out = Sphere{real(0)};
+      return true;
+    case 1:
+      out = Box{Vec3(real(0), real(1), real(2))};
+      return true;
+    case 2:
+      out = Capsule{real(0), real(1)};
+      return true;
     case 3:
       if (s.hull >= hulls.size()) return false;
       out = ConvexHull{hulls[s.hull]};
       return true;
-    case 4: out = HalfSpace{Vec3(real(0), real(1), real(2)), real(3)}; return true;
-    default: return false;
+    case 4:
+      out = HalfSpace{Vec3(real(0), real(1), real(2)), real(3)};
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -311,7 +243,8 @@ bool restore_bodies(const Snapshot& in, WorldState& world) {
     bodies.mass[info.dense].gravity_scale = gravity_scale;
     bodies.force[info.dense] = force;
     if (info.alive) {
-      bodies.info[made].has_own_mass = true;  // its colliders are not there yet: the saved mass holds
+      bodies.info[made].has_own_mass =
+          true;                  // its colliders are not there yet: the saved mass holds
       update_mass(world, made);  // the principal moments; the frame was saved and is put back below
       bodies.info[made].has_own_mass = info.has_own_mass;
       const std::uint32_t dense = bodies.info[made].dense;
@@ -346,10 +279,14 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
     visit_collider(table, info, shape, box);
     if (!table.ok()) return false;
     if (info.alive) {
-      if (info.body >= world.bodies.info.size() || !world.bodies.info[info.body].alive) return false;
-      if (!shape_from(shape, hulls, info.component.shape) || !check_shape(info.component.shape).ok()) return false;
+      if (info.body >= world.bodies.info.size() || !world.bodies.info[info.body].alive)
+        return false;
+      if (!shape_from(shape, hulls, info.component.shape) ||
+          !check_shape(info.component.shape).ok())
+        return false;
       info.shape = make_collision_shape(info.component.shape);
-      info.proxy = (info.is_static ? world.static_tree : world.moving_tree).insert(box, static_cast<std::uint32_t>(slot));
+      info.proxy = (info.is_static ? world.static_tree : world.moving_tree)
+                       .insert(box, static_cast<std::uint32_t>(slot));
       world.counts.sensors += info.component.is_sensor ? 1 : 0;
       world.counts.restitution += info.component.material.restitution > 0 ? 1 : 0;
     }
@@ -369,7 +306,8 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
     if (world.colliders.info[slot].alive && !listed[slot]) return false;
   for (std::uint32_t body = 0; body < world.bodies.info.size(); ++body)
     if (world.bodies.info[body].alive) update_collider_frames(world, body);
-  return read_list(in, "collider_free.slot", world.colliders.free_slots, world.colliders.info.size()) &&
+  return read_list(in, "collider_free.slot", world.colliders.free_slots,
+                   world.colliders.info.size()) &&
          read_list(in, "collider_query.slot", world.query_list, world.colliders.info.size());
 }
 
@@ -382,9 +320,13 @@ bool restore_pairs(const Snapshot& in, WorldState& world) {
     table.next_row();
     visit_pair(table, pair, island);
     const auto& colliders = world.colliders.info;
-    if (!table.ok() || pair.collider_a() >= colliders.size() || pair.collider_b() >= colliders.size()) return false;
+    if (!table.ok() || pair.collider_a() >= colliders.size() ||
+        pair.collider_b() >= colliders.size())
+      return false;
     if (!colliders[pair.collider_a()].alive || !colliders[pair.collider_b()].alive) return false;
-    if (colliders[pair.collider_a()].body != pair.body_a || colliders[pair.collider_b()].body != pair.body_b) return false;
+    if (colliders[pair.collider_a()].body != pair.body_a ||
+        colliders[pair.collider_b()].body != pair.body_b)
+      return false;
     if (pair.manifold.count < 0 || pair.manifold.count > Manifold::kMaxPoints) return false;
     if (island == kNone) {
       if (!awake.empty() && awake.back().key >= pair.key) return false;
@@ -407,36 +349,16 @@ bool restore_islands(const Snapshot& in, WorldState& world) {
     world.islands[info.island].used = true;
     world.islands[info.island].bodies.push_back(slot);
   }
-  if (!read_list(in, "island_free.index", world.free_islands, world.bodies.info.size() + 1)) return false;
-  const std::size_t needed = world.free_islands.empty() ? 0
-      : static_cast<std::size_t>(*std::max_element(world.free_islands.begin(), world.free_islands.end())) + 1;
+  if (!read_list(in, "island_free.index", world.free_islands, world.bodies.info.size() + 1))
+    return false;
+  const std::size_t needed = world.free_islands.empty()
+                                 ? 0
+                                 : static_cast<std::size_t>(*std::max_element(
+                                       world.free_islands.begin(), world.free_islands.end())) +
+                                       1;
   if (needed > world.islands.size()) world.islands.resize(needed);
   return true;
 }
-
-class Digest {
- public:
-  void add(std::uint64_t word) {  // multiply-rotate mixing of 64-bit words [Steele 2014]
-    state_ = std::rotl(state_ ^ (word * 0x9e3779b97f4a7c15u), 29) * 0xbf58476d1ce4e5b9u;
-  }
-  void add(float v) { add(std::uint64_t{std::bit_cast<std::uint32_t>(v)}); }
-  void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
-  template <class T>
-  void add(Vector3<T> v) {
-    add(v.x);
-    add(v.y);
-    add(v.z);
-  }
-  [[nodiscard]] std::uint64_t value() const {
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-
- private:
-  std::uint64_t state_ = 0x2545f4914f6cdd1du;
-};
 
 }  // namespace
 }  // namespace detail
@@ -480,7 +402,8 @@ Snapshot PhysicsWorld::save() const {
   }
   save_hulls(out, hulls);
   std::vector<std::uint32_t> order;
-  for (const BodyInfo& info : world.bodies.info) order.insert(order.end(), info.colliders.begin(), info.colliders.end());
+  for (const BodyInfo& info : world.bodies.info)
+    order.insert(order.end(), info.colliders.begin(), info.colliders.end());
   add_list(out, "collider_order.slot", order);
   add_list(out, "collider_free.slot", world.colliders.free_slots);
   add_list(out, "collider_query.slot", world.query_list);
@@ -502,55 +425,29 @@ Snapshot PhysicsWorld::save() const {
 
 Status PhysicsWorld::restore(const Snapshot& snapshot) {
   using namespace detail;
-  if (state_->stepping) return {StatusCode::InsideStep, "restore() was called while the world steps"};
+  if (state_->stepping)
+    return {StatusCode::InsideStep, "restore() was called while the world steps"};
   if (snapshot.schema_version != Snapshot::kSchemaVersion)
-    return {StatusCode::BadSnapshot, "the snapshot has another schema version than this build reads"};
+    return {StatusCode::BadSnapshot,
+            "the snapshot has another schema version than this build reads"};
   if (snapshot.precision != kPrecisionName)
-    return {StatusCode::BadSnapshot, "the snapshot was taken by a build of another precision (f32, f32d, f64)"};
+    return {StatusCode::BadSnapshot,
+            "the snapshot was taken by a build of another precision (f32, f32d, f64)"};
   auto made = std::make_unique<WorldState>();
-  const Status damaged{StatusCode::BadSnapshot, "the snapshot is damaged: its columns do not fit together"};
+  const Status damaged{StatusCode::BadSnapshot,
+                       "the snapshot is damaged: its columns do not fit together"};
   TableReader table(snapshot, "world");
   table.next_row();
   visit_world(table, *made);
   if (!table.ok() || !check(made->settings).ok()) return damaged;
-  if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) || !restore_islands(snapshot, *made) ||
-      !restore_pairs(snapshot, *made) ||
+  if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) ||
+      !restore_islands(snapshot, *made) || !restore_pairs(snapshot, *made) ||
       !read_list(snapshot, "body_touched.slot", made->touched, made->bodies.info.size()))
     return damaged;
   made->jobs = state_->jobs;
   made->observers = state_->observers;
   state_ = std::move(made);
   return {};
-}
-
-std::uint64_t PhysicsWorld::state_hash() const {
-  using namespace detail;
-  const WorldState& world = *state_;
-  Digest digest;
-  for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
-    const BodyInfo& info = world.bodies.info[slot];
-    if (!info.alive) continue;
-    const BodyPose& pose = world.bodies.pose[info.dense];
-    digest.add(std::uint64_t{info.generation} << 32 | slot);
-    digest.add(pose.x);
-    digest.add(Vec{pose.q.x, pose.q.y, pose.q.z});
-    digest.add(pose.q.w);
-    digest.add(world.bodies.velocity[info.dense].v);
-    digest.add(world.bodies.velocity[info.dense].w);
-    digest.add(world.bodies.momentum[info.dense].L);
-    digest.add(info.rest_time);
-    digest.add(std::uint64_t{world.bodies.is_awake(slot)} << 1 | std::uint64_t{info.disabled});
-  }
-  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
-    const Pair& pair = world.pairs[i];
-    digest.add(pair.key);
-    digest.add(static_cast<std::uint64_t>(pair.manifold.count));
-    for (int k = 0; k < pair.manifold.count; ++k) {
-      digest.add(pair.normal_impulse[k]);
-      digest.add(pair.friction_impulse[k]);
-    }
-  }
-  return digest.value();
 }
 
 }  // namespace plumb::inline PLUMB_ABI

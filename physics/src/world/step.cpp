@@ -51,11 +51,13 @@ const StepReport& PhysicsWorld::step(double dt) {
   detail::WorldState& world = *state_;
   StepReport& report = world.report;
   if (world.stepping) {
-    static const StepReport refused{{StatusCode::InsideStep, "step() was called while the world steps"}};
+    static const StepReport refused{
+        {StatusCode::InsideStep, "step() was called while the world steps"}};
     return refused;
   }
   if (!std::isfinite(dt) || dt < 0) {
-    report.status = {StatusCode::OutOfRange, "dt must be finite and not negative [s]; nothing was stepped"};
+    report.status = {StatusCode::OutOfRange,
+                     "dt must be finite and not negative [s]; nothing was stepped"};
     return report;
   }
   if (dt == 0) {

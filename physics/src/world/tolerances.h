@@ -10,37 +10,37 @@ namespace plumb::inline PLUMB_ABI::detail::tolerance {
 // 0.002: 2 mm for a 1 m box. Without it resting points flicker between touching and not.
 inline constexpr Real kSlopFraction = Real(0.002);
 
-// Contact points are made this many slops before the surfaces meet [-], so that a manifold keeps all
-// its points while a body rocks by less than the slop.
+// Contact points are made this many slops before the surfaces meet [-], so that a manifold keeps
+// all its points while a body rocks by less than the slop.
 inline constexpr Real kMarginSlops = Real(4);
 
 // Boxes in the broadphase are grown by this fraction of the body's smallest thickness [-]. Larger:
 // fewer tree updates, more false pairs.
 inline constexpr Real kFatBoxFraction = Real(0.1);
-// ... and reach ahead by the distance of this many steps [-], so that a fast body re-enters the tree
-// every few steps only.
+// ... and reach ahead by the distance of this many steps [-], so that a fast body re-enters the
+// tree every few steps only.
 inline constexpr Real kFatBoxSteps = Real(2);
 
-// Overlap is worked off no faster than this many thicknesses a second [1/s]. 2: a 1 m box leaves the
-// ground at 2 m/s at most, however deep it was born in it.
+// Overlap is worked off no faster than this many thicknesses a second [1/s]. 2: a 1 m box leaves
+// the ground at 2 m/s at most, however deep it was born in it.
 inline constexpr Real kPushRate = Real(2);
 
-// Contacts with static or kinematic bodies are this much stiffer than those between dynamic ones [-]
-// so that the ground yields last. [Catto 2024]
+// Contacts with static or kinematic bodies are this much stiffer than those between dynamic ones
+// [-] so that the ground yields last. [Catto 2024]
 inline constexpr Real kStaticStiffness = Real(2);
 
 // The settings' contact frequency is that of a 1 m body under 9.81 m/s^2: of this g / thickness
-// [1/s^2]. Below the second value (weightless scenes, mountains) contacts get no softer.
+// [1/s^2]. Below the second value (weightless scenes, large bodies) contacts get no softer.
 inline constexpr Real kReferencePull = Real(9.81);
-inline constexpr Real kSlowestPull = Real(1e-4);
+inline constexpr Real kSlowestPull = kReferencePull;
 
-// In steps that begin with overlap above this many slops [-] the velocities are relaxed more often, so
-// that what pushes bodies apart does not throw them.
+// In steps that begin with overlap above this many slops [-] the velocities are relaxed more often,
+// so that what pushes bodies apart does not throw them.
 inline constexpr Real kDeepSlops = Real(10);
 inline constexpr int kDeepRelaxPasses = 6;
 
-// An approach slower than this many g h (h: substep) does not bounce [-]. A pair at rest gains g h a
-// substep, so that anything below is noise; a pair that was at rest needs more, because an
+// An approach slower than this many g h (h: substep) does not bounce [-]. A pair at rest gains g h
+// a substep, so that anything below is noise; a pair that was at rest needs more, because an
 // unconverged solver leaves several g h.
 inline constexpr Real kBounceCutNew = Real(0.25);
 inline constexpr Real kBounceCutResting = Real(8);
@@ -58,8 +58,8 @@ inline constexpr int kSweepSteps = 32;
 // Surfaces this near count as met [-], as a fraction of the slop.
 inline constexpr Real kSweepTolerance = Real(0.5);
 
-// A body counts as being at rest below this fraction of sqrt(g d) [-], d its size: the speed it would
-// have after falling 1e-4 d. 0.014 sqrt(9.81 * 1) = 4.4 cm/s for a 1 m body.
+// A body counts as being at rest below this fraction of sqrt(g d) [-], d its size: the speed it
+// would have after falling 1e-4 d. 0.014 sqrt(9.81 * 1) = 4.4 cm/s for a 1 m body.
 inline constexpr Real kRestSpeedFraction = Real(0.014);
 // Without gravity: this many sizes a second [1/s].
 inline constexpr Real kRestSizesPerSecond = Real(1e-3);

@@ -7,14 +7,18 @@ namespace detail {
 
 Status check_body(const RigidBody& body) {
   if (const Status status = check_pose(body.pose); !status) return status;
-  if (!all_finite(body.linear_velocity)) return {StatusCode::NotFinite, "linear velocity is not finite [m/s]"};
-  if (!all_finite(body.angular_velocity)) return {StatusCode::NotFinite, "angular velocity is not finite [rad/s]"};
+  if (!all_finite(body.linear_velocity))
+    return {StatusCode::NotFinite, "linear velocity is not finite [m/s]"};
+  if (!all_finite(body.angular_velocity))
+    return {StatusCode::NotFinite, "angular velocity is not finite [rad/s]"};
   if (!std::isfinite(body.linear_damping) || body.linear_damping < 0)
     return {StatusCode::OutOfRange, "linear damping must be finite and not negative [1/s]"};
   if (!std::isfinite(body.angular_damping) || body.angular_damping < 0)
     return {StatusCode::OutOfRange, "angular damping must be finite and not negative [1/s]"};
-  if (!std::isfinite(body.gravity_scale)) return {StatusCode::NotFinite, "gravity scale is not finite"};
-  if (body.type != MotionType::Static && body.type != MotionType::Kinematic && body.type != MotionType::Dynamic)
+  if (!std::isfinite(body.gravity_scale))
+    return {StatusCode::NotFinite, "gravity scale is not finite"};
+  if (body.type != MotionType::Static && body.type != MotionType::Kinematic &&
+      body.type != MotionType::Dynamic)
     return {StatusCode::OutOfRange, "motion type must be Static, Kinematic or Dynamic"};
   if (body.type == MotionType::Static &&
       (body.linear_velocity.squaredNorm() > 0 || body.angular_velocity.squaredNorm() > 0))
@@ -25,7 +29,8 @@ Status check_body(const RigidBody& body) {
 
 Status check_collider(const Collider& collider, MotionType type) {
   if (const Status status = check_shape(collider.shape); !status) return status;
-  if (!all_finite(collider.pose.position)) return {StatusCode::NotFinite, "collider position is not finite [m]"};
+  if (!all_finite(collider.pose.position))
+    return {StatusCode::NotFinite, "collider position is not finite [m]"};
   if (const Status status = check_orientation(collider.pose.orientation); !status) return status;
   const Material& m = collider.material;
   if (!std::isfinite(m.friction) || m.friction < 0)
@@ -35,7 +40,8 @@ Status check_collider(const Collider& collider, MotionType type) {
   if (!std::isfinite(collider.density) || collider.density < 0)
     return {StatusCode::OutOfRange, "density must be finite and not negative [kg/m^3]"};
   if (std::holds_alternative<HalfSpace>(collider.shape) && type != MotionType::Static)
-    return {StatusCode::BadShape, "a half-space has no end and no mass: only static bodies may have one"};
+    return {StatusCode::BadShape,
+            "a half-space has no end and no mass: only static bodies may have one"};
   return {};
 }
 
@@ -43,7 +49,8 @@ Status check_collider(const Collider& collider, MotionType type) {
 
 Status check(const WorldSettings& s) {
   if (!s.gravity.allFinite()) return {StatusCode::NotFinite, "gravity is not finite [m/s^2]"};
-  if (s.substeps < 1 || s.substeps > 64) return {StatusCode::OutOfRange, "substeps must lie in 1..64"};
+  if (s.substeps < 1 || s.substeps > 64)
+    return {StatusCode::OutOfRange, "substeps must lie in 1..64"};
   if (!std::isfinite(s.contact_frequency) || s.contact_frequency <= 0)
     return {StatusCode::OutOfRange, "contact frequency must be finite and positive [Hz]"};
   if (!std::isfinite(s.contact_damping_ratio) || s.contact_damping_ratio < 0)

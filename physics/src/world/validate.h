@@ -11,10 +11,12 @@ inline Status stale_body() {
   return {StatusCode::StaleHandle, "no such body: the handle is null or the body was destroyed"};
 }
 inline Status stale_collider() {
-  return {StatusCode::StaleHandle, "no such collider: the handle is null or the collider was destroyed"};
+  return {StatusCode::StaleHandle,
+          "no such collider: the handle is null or the collider was destroyed"};
 }
 inline Status inside_step() {
-  return {StatusCode::InsideStep, "the world is stepping: change it before or after step(), not from an observer"};
+  return {StatusCode::InsideStep,
+          "the world is stepping: change it before or after step(), not from an observer"};
 }
 
 // Quaternions farther than this from unit length are refused [-]; nearer ones are normalised. Wide

@@ -16,7 +16,8 @@ Status ready_to_act(PhysicsWorld& self, WorldState& world, BodyId body, const Ve
   if (world.bodies.info[body.index].type != MotionType::Dynamic)
     return {StatusCode::WrongMotionType, "forces and impulses act on dynamic bodies only"};
   if (world.bodies.info[body.index].disabled)
-    return {StatusCode::WrongMotionType, "the body is quarantined: its state had become non-finite"};
+    return {StatusCode::WrongMotionType,
+            "the body is quarantined: its state had become non-finite"};
   return {};
 }
 
@@ -49,7 +50,8 @@ using detail::WorldState;
 Status PhysicsWorld::apply_force(BodyId body, const Vec3& force) {
   WorldState& world = *state_;
   if (const Status status = detail::ready_to_act(*this, world, body, force); !status) return status;
-  detail::note_input(world, InputKind::ApplyForce, body.value(), [&](auto& out) { detail::append(out, force); });
+  detail::note_input(world, InputKind::ApplyForce, body.value(),
+                     [&](auto& out) { detail::append(out, force); });
   detail::wake_body(world, body.index);
   world.bodies.force[world.bodies.info[body.index].dense].force += detail::to_inner(force);
   return {};
@@ -66,7 +68,8 @@ Status PhysicsWorld::apply_force_at(BodyId body, const Vec3& force, const Pos3& 
   detail::wake_body(world, body.index);
   const std::uint32_t dense = world.bodies.info[body.index].dense;
   world.bodies.force[dense].force += detail::to_inner(force);
-  world.bodies.force[dense].torque += cross(detail::arm_to(world, dense, p_W), detail::to_inner(force));
+  world.bodies.force[dense].torque +=
+      cross(detail::arm_to(world, dense, p_W), detail::to_inner(force));
   return {};
 }
 
@@ -88,8 +91,10 @@ Status PhysicsWorld::apply_force_at_body_point(BodyId body, const Vec3& force, c
 
 Status PhysicsWorld::apply_torque(BodyId body, const Vec3& torque) {
   WorldState& world = *state_;
-  if (const Status status = detail::ready_to_act(*this, world, body, torque); !status) return status;
-  detail::note_input(world, InputKind::ApplyTorque, body.value(), [&](auto& out) { detail::append(out, torque); });
+  if (const Status status = detail::ready_to_act(*this, world, body, torque); !status)
+    return status;
+  detail::note_input(world, InputKind::ApplyTorque, body.value(),
+                     [&](auto& out) { detail::append(out, torque); });
   detail::wake_body(world, body.index);
   world.bodies.force[world.bodies.info[body.index].dense].torque += detail::to_inner(torque);
   return {};
@@ -97,16 +102,20 @@ Status PhysicsWorld::apply_torque(BodyId body, const Vec3& torque) {
 
 Status PhysicsWorld::apply_impulse(BodyId body, const Vec3& impulse) {
   WorldState& world = *state_;
-  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status) return status;
-  detail::note_input(world, InputKind::ApplyImpulse, body.value(), [&](auto& out) { detail::append(out, impulse); });
+  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status)
+    return status;
+  detail::note_input(world, InputKind::ApplyImpulse, body.value(),
+                     [&](auto& out) { detail::append(out, impulse); });
   detail::wake_body(world, body.index);
-  detail::push_velocity(world, world.bodies.info[body.index].dense, detail::to_inner(impulse), {0, 0, 0});
+  detail::push_velocity(world, world.bodies.info[body.index].dense, detail::to_inner(impulse),
+                        {0, 0, 0});
   return {};
 }
 
 Status PhysicsWorld::apply_impulse_at(BodyId body, const Vec3& impulse, const Pos3& p_W) {
   WorldState& world = *state_;
-  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status) return status;
+  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status)
+    return status;
   if (!detail::all_finite(p_W)) return {StatusCode::NotFinite, "the point is not finite [m]"};
   detail::note_input(world, InputKind::ApplyImpulseAt, body.value(), [&](auto& out) {
     detail::append(out, impulse);
@@ -119,26 +128,32 @@ Status PhysicsWorld::apply_impulse_at(BodyId body, const Vec3& impulse, const Po
   return {};
 }
 
-Status PhysicsWorld::apply_impulse_at_body_point(BodyId body, const Vec3& impulse, const Vec3& p_B) {
+Status PhysicsWorld::apply_impulse_at_body_point(BodyId body, const Vec3& impulse,
+                                                 const Vec3& p_B) {
   WorldState& world = *state_;
-  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status) return status;
+  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status)
+    return status;
   if (!detail::all_finite(p_B)) return {StatusCode::NotFinite, "the point is not finite [m]"};
   detail::note_input(world, InputKind::ApplyImpulseAtBodyPoint, body.value(), [&](auto& out) {
     detail::append(out, impulse);
     detail::append(out, p_B);
   });
   detail::wake_body(world, body.index);
-  detail::push_velocity(world, world.bodies.info[body.index].dense, detail::to_inner(impulse),
-                        cross(detail::arm_to_body_point(world, body.index, p_B), detail::to_inner(impulse)));
+  detail::push_velocity(
+      world, world.bodies.info[body.index].dense, detail::to_inner(impulse),
+      cross(detail::arm_to_body_point(world, body.index, p_B), detail::to_inner(impulse)));
   return {};
 }
 
 Status PhysicsWorld::apply_angular_impulse(BodyId body, const Vec3& impulse) {
   WorldState& world = *state_;
-  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status) return status;
-  detail::note_input(world, InputKind::ApplyAngularImpulse, body.value(), [&](auto& out) { detail::append(out, impulse); });
+  if (const Status status = detail::ready_to_act(*this, world, body, impulse); !status)
+    return status;
+  detail::note_input(world, InputKind::ApplyAngularImpulse, body.value(),
+                     [&](auto& out) { detail::append(out, impulse); });
   detail::wake_body(world, body.index);
-  detail::push_velocity(world, world.bodies.info[body.index].dense, {0, 0, 0}, detail::to_inner(impulse));
+  detail::push_velocity(world, world.bodies.info[body.index].dense, {0, 0, 0},
+                        detail::to_inner(impulse));
   return {};
 }
 
@@ -157,10 +172,11 @@ Status PhysicsWorld::set_pose(BodyId body, const Pose& pose) {
   const detail::Rotation R_WB = detail::normalized(detail::to_inner(pose.orientation));
   detail::BodyPose& inner = world.bodies.pose[info.dense];
   inner.q = normalized(R_WB * info.R_BP);
-  inner.x = detail::to_inner_position(pose.position) + detail::cast<PosReal>(rotate(R_WB, info.center_B));
+  inner.x =
+      detail::to_inner_position(pose.position) + detail::cast<PosReal>(rotate(R_WB, info.center_B));
   // The velocities stay; the angular momentum follows the new orientation.
-  world.bodies.momentum[info.dense].L =
-      angular_momentum_of(world.bodies.mass[info.dense], inner.q, world.bodies.velocity[info.dense].w);
+  world.bodies.momentum[info.dense].L = angular_momentum_of(world.bodies.mass[info.dense], inner.q,
+                                                            world.bodies.velocity[info.dense].w);
   for (const std::uint32_t collider : info.colliders) detail::update_proxy(world, collider, true);
   detail::wake_around(world, body.index);  // what it was put on
   return {};
@@ -168,14 +184,16 @@ Status PhysicsWorld::set_pose(BodyId body, const Pose& pose) {
 
 namespace {
 
-Status ready_for_velocity(const PhysicsWorld& self, const WorldState& world, BodyId body, const Vec3& value) {
+Status ready_for_velocity(const PhysicsWorld& self, const WorldState& world, BodyId body,
+                          const Vec3& value) {
   if (world.stepping) return detail::inside_step();
   if (!self.is_valid(body)) return detail::stale_body();
   if (!detail::all_finite(value)) return {StatusCode::NotFinite, "velocity is not finite"};
   if (world.bodies.info[body.index].type == MotionType::Static)
     return {StatusCode::WrongMotionType, "a static body cannot have a velocity: make it kinematic"};
   if (world.bodies.info[body.index].disabled)
-    return {StatusCode::WrongMotionType, "the body is quarantined: its state had become non-finite"};
+    return {StatusCode::WrongMotionType,
+            "the body is quarantined: its state had become non-finite"};
   return {};
 }
 
@@ -183,22 +201,27 @@ Status ready_for_velocity(const PhysicsWorld& self, const WorldState& world, Bod
 
 Status PhysicsWorld::set_linear_velocity(BodyId body, const Vec3& velocity) {
   WorldState& world = *state_;
-  if (const Status status = ready_for_velocity(*this, world, body, velocity); !status) return status;
-  detail::note_input(world, InputKind::SetLinearVelocity, body.value(), [&](auto& out) { detail::append(out, velocity); });
+  if (const Status status = ready_for_velocity(*this, world, body, velocity); !status)
+    return status;
+  detail::note_input(world, InputKind::SetLinearVelocity, body.value(),
+                     [&](auto& out) { detail::append(out, velocity); });
   const bool kinematic = world.bodies.info[body.index].type == MotionType::Kinematic;
   detail::wake_body(world, body.index);
   if (kinematic) detail::wake_around(world, body.index);
   const detail::BodyInfo& info = world.bodies.info[body.index];
   const MotionLocks& k = info.locks;
-  world.bodies.velocity[info.dense].v = {k.linear_x ? Real(0) : velocity.x(), k.linear_y ? Real(0) : velocity.y(),
+  world.bodies.velocity[info.dense].v = {k.linear_x ? Real(0) : velocity.x(),
+                                         k.linear_y ? Real(0) : velocity.y(),
                                          k.linear_z ? Real(0) : velocity.z()};
   return {};
 }
 
 Status PhysicsWorld::set_angular_velocity(BodyId body, const Vec3& velocity) {
   WorldState& world = *state_;
-  if (const Status status = ready_for_velocity(*this, world, body, velocity); !status) return status;
-  detail::note_input(world, InputKind::SetAngularVelocity, body.value(), [&](auto& out) { detail::append(out, velocity); });
+  if (const Status status = ready_for_velocity(*this, world, body, velocity); !status)
+    return status;
+  detail::note_input(world, InputKind::SetAngularVelocity, body.value(),
+                     [&](auto& out) { detail::append(out, velocity); });
   const bool kinematic = world.bodies.info[body.index].type == MotionType::Kinematic;
   detail::wake_body(world, body.index);
   if (kinematic) detail::wake_around(world, body.index);
@@ -218,7 +241,8 @@ Status PhysicsWorld::set_awake(BodyId body, bool awake) {
   if (!is_valid(body)) return detail::stale_body();
   if (world.bodies.info[body.index].type == MotionType::Static)
     return {StatusCode::WrongMotionType, "a static body neither wakes nor sleeps"};
-  detail::note_input(world, InputKind::SetAwake, body.value(), [&](auto& out) { out.push_back(awake ? 1.0 : 0.0); });
+  detail::note_input(world, InputKind::SetAwake, body.value(),
+                     [&](auto& out) { out.push_back(awake ? 1.0 : 0.0); });
   if (awake) {
     detail::wake_body(world, body.index);
   } else {

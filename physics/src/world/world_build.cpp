@@ -12,12 +12,16 @@ namespace {
 
 void end_pair(WorldState& world, const Pair& pair) {
   if (!pair.was_touching) return;
-  const ColliderId a = world.colliders.id(pair.collider_a()), b = world.colliders.id(pair.collider_b());
+  const ColliderId a = world.colliders.id(pair.collider_a()),
+                   b = world.colliders.id(pair.collider_b());
   if (pair.sensor) {
     const bool a_senses = world.colliders.info[a.index].component.is_sensor;
-    world.gathering.sensors.push_back({SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
+    world.gathering.sensors.push_back(
+        {SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
   } else {
-    world.gathering.contacts.push_back({ContactEvent::Kind::End, a, b,
+    world.gathering.contacts.push_back({ContactEvent::Kind::End,
+                                        a,
+                                        b,
                                         {pair.body_a, world.bodies.info[pair.body_a].generation},
                                         {pair.body_b, world.bodies.info[pair.body_b].generation}});
   }
@@ -47,7 +51,8 @@ void remove_collider(WorldState& world, std::uint32_t slot) {
 }  // namespace
 }  // namespace detail
 
-PhysicsWorld::PhysicsWorld(const WorldSettings& settings) : state_(std::make_unique<detail::WorldState>()) {
+PhysicsWorld::PhysicsWorld(const WorldSettings& settings)
+    : state_(std::make_unique<detail::WorldState>()) {
   if (check(settings).ok()) state_->settings = settings;
 }
 PhysicsWorld::~PhysicsWorld() = default;
@@ -58,7 +63,8 @@ Created<BodyId> PhysicsWorld::create_body(const RigidBody& body) {
   detail::WorldState& world = *state_;
   if (world.stepping) return {{}, detail::inside_step()};
   if (const Status status = detail::check_body(body); !status) return {{}, status};
-  detail::note_input(world, InputKind::CreateBody, 0, [&](auto& out) { detail::append(out, body); });
+  detail::note_input(world, InputKind::CreateBody, 0,
+                     [&](auto& out) { detail::append(out, body); });
 
   const std::uint32_t slot = world.bodies.create();
   detail::BodyInfo& info = world.bodies.info[slot];
@@ -79,15 +85,18 @@ Created<BodyId> PhysicsWorld::create_body(const RigidBody& body) {
   detail::update_mass(world, slot);
   detail::BodyVelocity& velocity = world.bodies.velocity[dense];
   const MotionLocks& k = body.locks;
-  velocity.v = {k.linear_x ? Real(0) : body.linear_velocity.x(), k.linear_y ? Real(0) : body.linear_velocity.y(),
+  velocity.v = {k.linear_x ? Real(0) : body.linear_velocity.x(),
+                k.linear_y ? Real(0) : body.linear_velocity.y(),
                 k.linear_z ? Real(0) : body.linear_velocity.z()};
-  velocity.w = {k.angular_x ? Real(0) : body.angular_velocity.x(), k.angular_y ? Real(0) : body.angular_velocity.y(),
+  velocity.w = {k.angular_x ? Real(0) : body.angular_velocity.x(),
+                k.angular_y ? Real(0) : body.angular_velocity.y(),
                 k.angular_z ? Real(0) : body.angular_velocity.z()};
   world.bodies.momentum[dense].L =
       detail::angular_momentum_of(world.bodies.mass[dense], world.bodies.pose[dense].q, velocity.w);
-  const bool moves = body.type == MotionType::Dynamic ||
-                     (body.type == MotionType::Kinematic &&
-                      (body.linear_velocity.squaredNorm() > 0 || body.angular_velocity.squaredNorm() > 0));
+  const bool moves =
+      body.type == MotionType::Dynamic ||
+      (body.type == MotionType::Kinematic &&
+       (body.linear_velocity.squaredNorm() > 0 || body.angular_velocity.squaredNorm() > 0));
   if (moves) world.bodies.wake(slot);
   const BodyId id{slot, info.generation};
   if (body.type == MotionType::Dynamic && !body.starts_awake) detail::put_to_sleep(world, slot);
@@ -114,14 +123,17 @@ Created<ColliderId> PhysicsWorld::create_collider(BodyId body, const Collider& c
   if (world.stepping) return {{}, detail::inside_step()};
   if (!is_valid(body)) return {{}, detail::stale_body()};
   detail::BodyInfo& owner = world.bodies.info[body.index];
-  if (const Status status = detail::check_collider(collider, owner.type); !status) return {{}, status};
+  if (const Status status = detail::check_collider(collider, owner.type); !status)
+    return {{}, status};
   // The mass that the body would have must be that of a body, and fit the number type.
-  if (owner.type == MotionType::Dynamic && !owner.has_own_mass && !collider.is_sensor && collider.density > 0) {
+  if (owner.type == MotionType::Dynamic && !owner.has_own_mass && !collider.is_sensor &&
+      collider.density > 0) {
     const ShapeMass added = mass_of(collider.shape, collider.density);
     if (!added.status.ok()) return {{}, added.status};
     if (const Status status = check(added.properties); !status) return {{}, status};
   }
-  detail::note_input(world, InputKind::CreateCollider, body.value(), [&](auto& out) { detail::append(out, collider); });
+  detail::note_input(world, InputKind::CreateCollider, body.value(),
+                     [&](auto& out) { detail::append(out, collider); });
 
   const std::uint32_t slot = world.colliders.create();
   detail::ColliderInfo& info = world.colliders.info[slot];
@@ -133,8 +145,10 @@ Created<ColliderId> PhysicsWorld::create_collider(BodyId body, const Collider& c
   owner.colliders.push_back(slot);
   owner.collider_ids.push_back(world.colliders.id(slot));
   detail::count_collider(world, collider, 1);
-  // A body that was made asleep sleeps on while it is being built; one that lies on something wakes.
-  if (owner.island != detail::kNone && (!world.islands[owner.island].pairs.empty() || world.islands[owner.island].bodies.size() > 1))
+  // A body that was made asleep sleeps on while it is being built; one that lies on something
+  // wakes.
+  if (owner.island != detail::kNone &&
+      (!world.islands[owner.island].pairs.empty() || world.islands[owner.island].bodies.size() > 1))
     detail::wake_body(world, body.index);
   if (owner.has_own_mass || collider.is_sensor || collider.density == 0) {
     detail::update_collider_frames(world, body.index);
@@ -156,7 +170,8 @@ Status PhysicsWorld::destroy_collider(ColliderId collider) {
   detail::wake_around(world, body);
   detail::remove_collider(world, collider.index);
   detail::update_mass(world, body);
-  for (const std::uint32_t other : world.bodies.info[body].colliders) detail::update_proxy(world, other, true);
+  for (const std::uint32_t other : world.bodies.info[body].colliders)
+    detail::update_proxy(world, other, true);
   return {};
 }
 
@@ -164,12 +179,14 @@ Status PhysicsWorld::set_settings(const WorldSettings& settings) {
   detail::WorldState& world = *state_;
   if (world.stepping) return detail::inside_step();
   if (const Status status = check(settings); !status) return status;
-  detail::note_input(world, InputKind::SetSettings, 0, [&](auto& out) { detail::append(out, settings); });
+  detail::note_input(world, InputKind::SetSettings, 0,
+                     [&](auto& out) { detail::append(out, settings); });
   const bool wake_all = settings.gravity != world.settings.gravity || !settings.sleeping;
   world.settings = settings;
   if (wake_all) {
     for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot)
-      if (world.bodies.info[slot].alive && world.bodies.info[slot].island != detail::kNone) detail::wake_body(world, slot);
+      if (world.bodies.info[slot].alive && world.bodies.info[slot].island != detail::kNone)
+        detail::wake_body(world, slot);
   }
   return {};
 }
@@ -181,7 +198,8 @@ Status PhysicsWorld::set_mass(BodyId body, const MassProperties& properties) {
   if (world.bodies.info[body.index].type != MotionType::Dynamic)
     return {StatusCode::WrongMotionType, "only dynamic bodies have a mass"};
   if (const Status status = check(properties); !status) return status;
-  detail::note_input(world, InputKind::SetMass, body.value(), [&](auto& out) { detail::append(out, properties); });
+  detail::note_input(world, InputKind::SetMass, body.value(),
+                     [&](auto& out) { detail::append(out, properties); });
   detail::BodyInfo& info = world.bodies.info[body.index];
   detail::wake_body(world, body.index);
   info.has_own_mass = true;

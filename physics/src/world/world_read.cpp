@@ -41,10 +41,12 @@ void append_contact(const WorldState& world, const Pair& pair, std::vector<Conta
   contact.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
   contact.normal = to_public(pair.manifold.normal);
   contact.point_count = pair.manifold.count;
-  const std::uint32_t reference = world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
+  const std::uint32_t reference =
+      world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
   for (int i = 0; i < pair.manifold.count; ++i) {
     ContactState::Point& point = contact.points[i];
-    point.position = to_public_position(world.bodies.pose[reference].x + cast<PosReal>(pair.manifold.points[i].position));
+    point.position = to_public_position(world.bodies.pose[reference].x +
+                                        cast<PosReal>(pair.manifold.points[i].position));
     point.separation = pair.manifold.points[i].separation;
     point.normal_impulse = pair.step_normal_impulse[i];
     point.friction_impulse = to_public(pair.step_friction_impulse[i]);
@@ -57,11 +59,13 @@ void append_contact(const WorldState& world, const Pair& pair, std::vector<Conta
 
 bool PhysicsWorld::is_valid(BodyId body) const {
   const auto& info = state_->bodies.info;
-  return body.index < info.size() && info[body.index].alive && info[body.index].generation == body.generation;
+  return body.index < info.size() && info[body.index].alive &&
+         info[body.index].generation == body.generation;
 }
 bool PhysicsWorld::is_valid(ColliderId collider) const {
   const auto& info = state_->colliders.info;
-  return collider.index < info.size() && info[collider.index].alive && info[collider.index].generation == collider.generation;
+  return collider.index < info.size() && info[collider.index].alive &&
+         info[collider.index].generation == collider.generation;
 }
 BodyState PhysicsWorld::state(BodyId body) const {
   return is_valid(body) ? detail::state_of(*state_, body.index) : BodyState{};
@@ -81,7 +85,8 @@ Vec3 PhysicsWorld::velocity_at(BodyId body, const Pos3& p_W) const {
   if (!is_valid(body)) return Vec3::Zero();
   const std::uint32_t dense = state_->bodies.info[body.index].dense;
   const detail::BodyVelocity& velocity = state_->bodies.velocity[dense];
-  const detail::Vec arm = detail::cast<Real>(detail::to_inner_position(p_W) - state_->bodies.pose[dense].x);
+  const detail::Vec arm =
+      detail::cast<Real>(detail::to_inner_position(p_W) - state_->bodies.pose[dense].x);
   return detail::to_public(velocity.v + cross(velocity.w, arm));
 }
 Vec3 PhysicsWorld::angular_momentum(BodyId body) const {
@@ -93,13 +98,16 @@ Pos3 PhysicsWorld::center_of_mass(BodyId body) const {
   return detail::to_public_position(state_->bodies.pose[state_->bodies.info[body.index].dense].x);
 }
 Vec3 PhysicsWorld::last_acceleration(BodyId body) const {
-  return is_valid(body) ? detail::to_public(state_->bodies.info[body.index].acceleration) : Vec3::Zero();
+  return is_valid(body) ? detail::to_public(state_->bodies.info[body.index].acceleration)
+                        : Vec3::Zero();
 }
 MassProperties PhysicsWorld::mass_properties(BodyId body) const {
   if (!is_valid(body) || state_->bodies.info[body.index].type != MotionType::Dynamic) return {};
   return state_->bodies.info[body.index].properties;
 }
-bool PhysicsWorld::is_awake(BodyId body) const { return is_valid(body) && state_->bodies.is_awake(body.index); }
+bool PhysicsWorld::is_awake(BodyId body) const {
+  return is_valid(body) && state_->bodies.is_awake(body.index);
+}
 std::span<const ColliderId> PhysicsWorld::colliders_of(BodyId body) const {
   if (!is_valid(body)) return {};
   return state_->bodies.info[body.index].collider_ids;
@@ -152,7 +160,8 @@ void PhysicsWorld::copy_moved_body_states(std::vector<BodyState>& out) const {
 }
 void PhysicsWorld::copy_contacts(std::vector<ContactState>& out) const {
   out.clear();
-  for (std::size_t i = 0; i < state_->pairs.size(); ++i) detail::append_contact(*state_, state_->pairs[i], out);
+  for (std::size_t i = 0; i < state_->pairs.size(); ++i)
+    detail::append_contact(*state_, state_->pairs[i], out);
   for (const detail::SleepingIsland& island : state_->islands)
     for (const detail::Pair& pair : island.pairs) detail::append_contact(*state_, pair, out);
 }
@@ -187,17 +196,20 @@ std::optional<RayHitResult> PhysicsWorld::cast_ray(const Pos3& origin, const Vec
   std::optional<RayHitResult> nearest;
   const auto visit = [&](std::uint32_t slot, PosReal max_fraction) -> PosReal {
     const detail::ColliderInfo& collider = world.colliders.info[slot];
-    if (collider.component.is_sensor || (collider.component.filter.layers & layers) == 0) return max_fraction;
+    if (collider.component.is_sensor || (collider.component.filter.layers & layers) == 0)
+      return max_fraction;
     const detail::BodyPose& pose = world.bodies.pose[world.bodies.info[collider.body].dense];
     // Relative to the shape, so that single precision holds far from the world's origin.
-    const detail::PosVec center = pose.x + detail::cast<PosReal>(rotate(pose.q, collider.in_body.p));
+    const detail::PosVec center =
+        pose.x + detail::cast<PosReal>(rotate(pose.q, collider.in_body.p));
     const detail::Transform placed{{0, 0, 0}, pose.q * collider.in_body.q};
     detail::RayHit hit;
     if (!detail::cast_ray(collider.shape, placed, detail::cast<Real>(start - center), path,
                           static_cast<Real>(max_fraction), hit))
       return max_fraction;
     // Of two at the same distance the smaller index wins, whatever the order of the tree.
-    if (nearest.has_value() && hit.fraction == nearest->fraction && nearest->collider.index < slot) return max_fraction;
+    if (nearest.has_value() && hit.fraction == nearest->fraction && nearest->collider.index < slot)
+      return max_fraction;
     RayHitResult result;
     result.collider = world.colliders.id(slot);
     result.body = {collider.body, world.bodies.info[collider.body].generation};
@@ -205,26 +217,31 @@ std::optional<RayHitResult> PhysicsWorld::cast_ray(const Pos3& origin, const Vec
     result.normal = detail::to_public(hit.normal);
     result.point = detail::to_public_position(start + detail::cast<PosReal>(hit.fraction * path));
     nearest = result;
-    return static_cast<PosReal>(hit.fraction) > PosReal(0) ? static_cast<PosReal>(hit.fraction) : max_fraction;
+    return static_cast<PosReal>(hit.fraction) > PosReal(0) ? static_cast<PosReal>(hit.fraction)
+                                                           : max_fraction;
   };
   world.static_tree.cast_ray(start, detail::cast<PosReal>(path), PosReal(1), visit);
-  world.moving_tree.cast_ray(start, detail::cast<PosReal>(path),
-                             nearest.has_value() ? static_cast<PosReal>(nearest->fraction) : PosReal(1), visit);
+  world.moving_tree.cast_ray(
+      start, detail::cast<PosReal>(path),
+      nearest.has_value() ? static_cast<PosReal>(nearest->fraction) : PosReal(1), visit);
   return nearest;
 }
 
-void PhysicsWorld::overlap_bounds(const Bounds& box, std::vector<ColliderId>& out, std::uint32_t layers) const {
+void PhysicsWorld::overlap_bounds(const Bounds& box, std::vector<ColliderId>& out,
+                                  std::uint32_t layers) const {
   out.clear();
   if (!box.lower.allFinite() || !box.upper.allFinite()) return;
   const detail::WorldState& world = *state_;
-  const detail::WorldAabb sought{detail::to_inner_position(box.lower), detail::to_inner_position(box.upper)};
+  const detail::WorldAabb sought{detail::to_inner_position(box.lower),
+                                 detail::to_inner_position(box.upper)};
   const auto visit = [&](std::uint32_t slot) {
     const detail::ColliderInfo& collider = world.colliders.info[slot];
     if ((collider.component.filter.layers & layers) == 0) return;
     const detail::BodyPose& pose = world.bodies.pose[world.bodies.info[collider.body].dense];
     const detail::Transform placed{rotate(pose.q, collider.in_body.p), pose.q * collider.in_body.q};
     const detail::Aabb tight = bounds_of(collider.shape, placed);
-    const detail::WorldAabb bounds{pose.x + detail::cast<PosReal>(tight.lower), pose.x + detail::cast<PosReal>(tight.upper)};
+    const detail::WorldAabb bounds{pose.x + detail::cast<PosReal>(tight.lower),
+                                   pose.x + detail::cast<PosReal>(tight.upper)};
     if (overlaps(sought, bounds)) out.push_back(world.colliders.id(slot));
   };
   world.static_tree.query(sought, visit);

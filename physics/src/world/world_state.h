@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "collision/aabb_tree.h"
-#include "plumb/world.h"
 #include "math/eigen_bridge.h"
+#include "plumb/world.h"
 #include "solver/contact_row.h"
 #include "world/body_store.h"
 #include "world/collider_store.h"
@@ -75,26 +75,26 @@ struct WorldState {
 
   // --- scratch of the running step (kept between steps for its storage) ---
   StepFlags flags;
-  Real dt = 0, h = 0;   // [s] step, substep
-  Real last_h = 0;      // [s] substep to which the remembered impulses belong
-  bool deep_overlap = false;  // some contact of this step begins far inside
-  Real proxy_dt = 0;    // [s] step for which the boxes reach ahead
-  std::vector<std::uint32_t> touching;      // indices into pairs
-  std::vector<std::uint32_t> row_order;     // touching pairs by colour
+  Real dt = 0, h = 0;                    // [s] step, substep
+  Real last_h = 0;                       // [s] substep to which the remembered impulses belong
+  bool deep_overlap = false;             // some contact of this step begins far inside
+  Real proxy_dt = 0;                     // [s] step for which the boxes reach ahead
+  std::vector<std::uint32_t> touching;   // indices into pairs
+  std::vector<std::uint32_t> row_order;  // touching pairs by colour
   std::vector<ColorRange> colors;
-  std::vector<ContactRow<Real>> rows;       // in colour order
+  std::vector<ContactRow<Real>> rows;  // in colour order
   std::vector<std::uint32_t> bouncing_rows;
-  std::vector<BodyDelta> delta;             // per dense index
-  std::vector<SubstepBody> substep;         // per dense index
-  std::vector<std::uint64_t> color_mask;    // per dense index
-  std::vector<std::uint32_t> parents;       // union-find, per slot
+  std::vector<BodyDelta> delta;           // per dense index
+  std::vector<SubstepBody> substep;       // per dense index
+  std::vector<std::uint64_t> color_mask;  // per dense index
+  std::vector<std::uint32_t> parents;     // union-find, per slot
   std::vector<std::uint64_t> new_keys;
   std::vector<std::vector<std::uint64_t>> new_keys_by_chunk;
   std::vector<Pair> new_pairs;
   std::vector<std::uint8_t> pair_gone;
   std::vector<std::uint32_t> bodies_to_wake;
-  std::vector<std::uint32_t> query_list;    // collider slots whose pairs must be sought
-  std::vector<std::uint32_t> touched;       // body slots that somebody acted on since the last step
+  std::vector<std::uint32_t> query_list;  // collider slots whose pairs must be sought
+  std::vector<std::uint32_t> touched;     // body slots that somebody acted on since the last step
 
   // Events are gathered from the end of one step to the end of the next, then published together.
   EventLists gathering, published;
@@ -119,10 +119,10 @@ void update_collider_frames(WorldState& world, std::uint32_t body);
 void refresh_velocity(WorldState& world, std::uint32_t body);
 
 // --- sleeping (world/islands.cpp) ---
-void wake_body(WorldState& world, std::uint32_t body);           // with its island
-void wake_around(WorldState& world, std::uint32_t body);         // whatever sleeps on its bounds
+void wake_body(WorldState& world, std::uint32_t body);    // with its island
+void wake_around(WorldState& world, std::uint32_t body);  // whatever sleeps on its bounds
 void sleep_islands(WorldState& world);
-void put_to_sleep(WorldState& world, std::uint32_t body);        // with all it touches
+void put_to_sleep(WorldState& world, std::uint32_t body);  // with all it touches
 
 // --- stages of the step ---
 void plan_step(WorldState& world, double dt);

@@ -1,9 +1,9 @@
 //! Plumb's bridge to the Rerun SDK: the C functions of `plumb_rerun.h`, and nothing else here.
 //!
-//! Rerun's own code makes the chunks, encodes, compresses, decodes and lays out the views. Ours is the
-//! writer thread around it (`writer.rs`), because a simulation must neither hang on a full disk nor
-//! lose the reason, and the walk over the file (`reader.rs`), because a cut tail must be told apart
-//! from an end.
+//! Rerun's own code makes the chunks, encodes, compresses, decodes and lays out the views. Ours is
+//! the writer thread around it (`writer.rs`), because a simulation must neither hang on a full disk
+//! nor lose the reason, and the walk over the file (`reader.rs`), because a cut tail must be told
+//! apart from an end.
 
 mod blueprint;
 mod columns;

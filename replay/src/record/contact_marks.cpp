@@ -28,7 +28,8 @@ double mean_mass(const Frame& frame) {
 }
 
 float* write_point(float* out, const Pos3& p) {
-  return std::transform(p.data(), p.data() + 3, out, [](PosReal x) { return static_cast<float>(x); });
+  return std::transform(p.data(), p.data() + 3, out,
+                        [](PosReal x) { return static_cast<float>(x); });
 }
 
 void send_look(rrd::Writer& writer, const std::string& entity, const std::string& archetype,

@@ -32,7 +32,8 @@ void send_mesh(rrd::Writer& writer, const std::string& entity, const VisualMesh&
       if (whole) corner[i] = mesh.vertices[triangle[i]];
     }
     if (!whole) continue;
-    const Eigen::Vector3f normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    const Eigen::Vector3f normal =
+        (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
     const std::uint32_t index[3] = {next, next + 1, next + 2};
     next += 3;
     for (const Eigen::Vector3f& point : corner) {

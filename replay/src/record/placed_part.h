@@ -12,17 +12,16 @@ namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 
 // 0xRRGGBBAA
-inline constexpr std::array<std::uint32_t, 8> kBodyColors{0x4e9fe6ff, 0xf2a541ff, 0x5fbf7fff,
-                                                          0xe0666aff, 0xa487d8ff, 0x4fc1c0ff,
-                                                          0xd9c14aff, 0xdd86b8ff};
+inline constexpr std::array<std::uint32_t, 8> kBodyColors{
+    0x4e9fe6ff, 0xf2a541ff, 0x5fbf7fff, 0xe0666aff, 0xa487d8ff, 0x4fc1c0ff, 0xd9c14aff, 0xdd86b8ff};
 inline constexpr std::uint32_t kAsleepColor = 0x8a8f98ff;
 inline constexpr std::uint32_t kStaticColor = 0x59616dff;
 inline constexpr std::uint32_t kSensorColor = 0x7fd4a0ff;
 
 struct PlacedPart {
-  std::size_t slot = 0;            // of the body in Frame::bodies
-  LocalPose pose;                  // of what is drawn, in the body frame
-  bool at_body_frame = true;       // pose is the identity
+  std::size_t slot = 0;       // of the body in Frame::bodies
+  LocalPose pose;             // of what is drawn, in the body frame
+  bool at_body_frame = true;  // pose is the identity
   std::uint32_t color = kStaticColor;
 
   // Writes the world pose as single-precision position and x y z w.

@@ -54,14 +54,13 @@ void Plots::add_row(rrd::Table& table, const Frame& frame, std::span<const doubl
 
 void Plots::add(const Frame& frame, const StepReport& report) {
   const EnergyReport energy = frame.world.energy();
-  add_row(energy_, frame,
-          std::array{energy.total(), energy.kinetic_linear, energy.kinetic_angular,
-                     energy.potential});
+  add_row(
+      energy_, frame,
+      std::array{energy.total(), energy.kinetic_linear, energy.kinetic_angular, energy.potential});
   add_row(counts_, frame,
-          std::array{static_cast<double>(report.awake_bodies),
-                     static_cast<double>(report.touching_pairs),
-                     static_cast<double>(report.contact_points),
-                     static_cast<double>(report.islands)});
+          std::array{
+              static_cast<double>(report.awake_bodies), static_cast<double>(report.touching_pairs),
+              static_cast<double>(report.contact_points), static_cast<double>(report.islands)});
   add_row(overlap_, frame, std::array{report.largest_penetration * kMillimetersPerMeter});
   if (frame.world.settings().profiling) {
     std::array<double, kStageCount> milliseconds{};

@@ -156,8 +156,9 @@ void Recorder::Session::step(const StepView& view) {
   const std::uint64_t step = view.world.step_count();
   if (step == last_step_) return;  // refused, or of no length: nothing moved
   if (step != last_step_ + 1)
-    return fail("step " + std::to_string(step) + " follows step " + std::to_string(last_step_) +
-                ": the world was restored while it was recorded; use a new recorder for what follows");
+    return fail(
+        "step " + std::to_string(step) + " follows step " + std::to_string(last_step_) +
+        ": the world was restored while it was recorded; use a new recorder for what follows");
   last_step_ = step;
 
   const bool changed = scene_changed(view.inputs);

@@ -11,9 +11,12 @@ constexpr std::uint8_t kOutline = 1, kSolid = 3;
 
 const char* archetype_of(Primitive primitive) {
   switch (primitive) {
-    case Primitive::Box: return "Boxes3D";
-    case Primitive::Sphere: return "Ellipsoids3D";
-    case Primitive::Capsule: return "Capsules3D";
+    case Primitive::Box:
+      return "Boxes3D";
+    case Primitive::Sphere:
+      return "Ellipsoids3D";
+    case Primitive::Capsule:
+      return "Capsules3D";
   }
   return "";
 }

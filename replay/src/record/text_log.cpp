@@ -21,8 +21,7 @@ std::string short_number(double x) {
 
 }  // namespace
 
-TextLog::TextLog(int event_lines_per_step)
-    : table_("log"), lines_per_step_(event_lines_per_step) {
+TextLog::TextLog(int event_lines_per_step) : table_("log"), lines_per_step_(event_lines_per_step) {
   table_.add_text_column("TextLog:text");
   table_.add_text_column("TextLog:level");
 }
@@ -33,9 +32,8 @@ void TextLog::add_line(const Frame& frame, const char* level, const std::string&
   table_.end_row(frame.number, frame.time);
 }
 
-void TextLog::add_event(const Frame& frame, const char* level, const std::string& text) {
-  if (++lines_in_step_ <= lines_per_step_) add_line(frame, level, text);
-}
+// Counts an event, and says whether its line is still to be written: the others cost no text.
+bool TextLog::takes_line() { return ++lines_in_step_ <= lines_per_step_; }
 
 void TextLog::add_plan(const Frame& frame) {
   std::string plan;
@@ -58,23 +56,28 @@ void TextLog::add_events(const Frame& frame, const Events& events, const StepRep
   for (const QuarantineEvent& event : events.quarantined)
     add_line(frame, "ERROR", body_name(event.body) + ": not finite, put back and disabled");
   for (const HitEvent& event : events.hits)
-    add_event(frame, "INFO",
-              body_name(event.body_a) + " hits " + body_name(event.body_b) + " at " +
-                  short_number(event.approach_speed) + " m/s, " + short_number(event.impulse) +
-                  " N s");
+    if (takes_line())
+      add_line(frame, "INFO",
+               body_name(event.body_a) + " hits " + body_name(event.body_b) + " at " +
+                   short_number(event.approach_speed) + " m/s, " + short_number(event.impulse) +
+                   " N s");
   for (const SensorEvent& event : events.sensors)
-    add_event(frame, "INFO",
-              collider_name(event.other) +
-                  (event.kind == SensorEvent::Kind::Enter ? " enters sensor " : " leaves sensor ") +
-                  std::to_string(event.sensor.index));
+    if (takes_line())
+      add_line(
+          frame, "INFO",
+          collider_name(event.other) +
+              (event.kind == SensorEvent::Kind::Enter ? " enters sensor " : " leaves sensor ") +
+              std::to_string(event.sensor.index));
   for (const SleepEvent& event : events.sleep)
-    add_event(frame, "DEBUG",
-              body_name(event.body) + (event.fell_asleep ? " falls asleep" : " wakes"));
+    if (takes_line())
+      add_line(frame, "DEBUG",
+               body_name(event.body) + (event.fell_asleep ? " falls asleep" : " wakes"));
   for (const ContactEvent& event : events.contacts)
-    add_event(frame, "TRACE",
-              body_name(event.body_a) +
-                  (event.kind == ContactEvent::Kind::Begin ? " touches " : " leaves ") +
-                  body_name(event.body_b));
+    if (takes_line())
+      add_line(frame, "TRACE",
+               body_name(event.body_a) +
+                   (event.kind == ContactEvent::Kind::Begin ? " touches " : " leaves ") +
+                   body_name(event.body_b));
   if (lines_in_step_ > lines_per_step_)
     add_line(frame, "INFO",
              "and " + std::to_string(lines_in_step_ - lines_per_step_) + " more events");

@@ -19,7 +19,7 @@ class TextLog {
 
  private:
   void add_line(const Frame& frame, const char* level, const std::string& text);
-  void add_event(const Frame& frame, const char* level, const std::string& text);
+  bool takes_line();
 
   rrd::Table table_;
   int lines_per_step_;

@@ -42,7 +42,8 @@ void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderO
       {PLUMB_RR_VIEW_TEXT_LOG, "Plan and events", "+ /log", 4},
   };
   const Eigen::Vector3d& up = extent.up;
-  const Eigen::Vector3d aside = std::abs(up.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d aside =
+      std::abs(up.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d front = aside.cross(up).normalized();
   const Eigen::Vector3d right = up.cross(front);
   const Eigen::Vector3d eye =

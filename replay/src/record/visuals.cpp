@@ -146,8 +146,7 @@ void Visuals::add_collider(rrd::Writer& writer, const Collider& collider, Placed
     const Real length = half->normal.norm();
     const Vec3 normal = half->normal / length;
     part.at_body_frame = false;
-    part.pose.orientation =
-        collider.pose.orientation * Quat::FromTwoVectors(Vec3::UnitY(), normal);
+    part.pose.orientation = collider.pose.orientation * Quat::FromTwoVectors(Vec3::UnitY(), normal);
     part.pose.position += collider.pose.orientation *
                           (normal * (half->offset / length - static_cast<Real>(thickness)));
     batch(Primitive::Box).add_part(part, sizes_of(side, thickness, side));

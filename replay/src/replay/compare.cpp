@@ -48,8 +48,8 @@ class Comparison {
       differing_.insert(ids_[i / width]);
       if (named_) continue;
       const double a = static_cast<double>(recorded[i]), b = static_cast<double>(computed[i]);
-      const double size = std::isfinite(a - b) ? std::abs(a - b)
-                                               : std::numeric_limits<double>::infinity();
+      const double size =
+          std::isfinite(a - b) ? std::abs(a - b) : std::numeric_limits<double>::infinity();
       if (size <= largest) continue;
       largest = size;
       out_.body = BodyId::from_value(ids_[i / width]);
@@ -57,8 +57,10 @@ class Comparison {
       if (axes[0] != 0) out_.quantity += std::string(".") + axes[i % width];
       out_.recorded = a;
       out_.computed = b;
-      if constexpr (std::is_floating_point_v<T>) out_.ulps = ulps_between(recorded[i], computed[i]);
-      else out_.ulps = std::abs(a - b);
+      if constexpr (std::is_floating_point_v<T>)
+        out_.ulps = ulps_between(recorded[i], computed[i]);
+      else
+        out_.ulps = std::abs(a - b);
     }
     named_ = named_ || largest >= 0;
   }

@@ -8,8 +8,8 @@ namespace replay::detail {
 
 BodyRow body_row(const PhysicsWorld& world);
 
-// Fills body, quantity and the two numbers of the difference: of the first of position, orientation,
-// velocities and wakefulness that is not bit-equal, the body in which it differs most.
+// Fills body, quantity and the two numbers of the difference: of the first of position,
+// orientation, velocities and wakefulness that is not bit-equal, the body in which it differs most.
 void name_difference(const BodyRow& recorded, const BodyRow& computed, Difference& difference);
 
 }  // namespace replay::detail

@@ -159,7 +159,8 @@ void Loader::take_inputs() {
       if (row.numbers.size() - at < length)
         return fail(path_ + ": the inputs at frame " + std::to_string(frame) + " are damaged");
       const auto begin = row.numbers.begin() + static_cast<std::ptrdiff_t>(at);
-      records.push_back({static_cast<InputKind>(row.kinds[i]), row.targets[i],
+      records.push_back({static_cast<InputKind>(row.kinds[i]),
+                         row.targets[i],
                          {begin, begin + static_cast<std::ptrdiff_t>(length)}});
       at += length;
     }
@@ -170,8 +171,9 @@ void Loader::take_inputs() {
 void Loader::check() {
   const RecordingInfo& info = out_.info;
   if (!has_head_)
-    return fail(path_ + ": holds nothing under " + schema::recording::kEntity +
-                ", so it was not written by Plumb's recorder, or was cut off before its first step");
+    return fail(
+        path_ + ": holds nothing under " + schema::recording::kEntity +
+        ", so it was not written by Plumb's recorder, or was cut off before its first step");
   if (info.schema_version != schema::kVersion)
     return fail(path_ + ": has schema version " + std::to_string(info.schema_version) +
                 ", this program reads version " + std::to_string(schema::kVersion) +

@@ -20,8 +20,8 @@ struct RecordedStep {
 
 struct Recording {
   RecordingInfo info;
-  std::vector<RecordedStep> steps;                              // ascending, without gaps
-  std::map<std::uint64_t, std::vector<InputRecord>> inputs;     // by the step they were given before
+  std::vector<RecordedStep> steps;                           // ascending, without gaps
+  std::map<std::uint64_t, std::vector<InputRecord>> inputs;  // by the step they were given before
   std::uint64_t snapshot_frame = 0;
   std::optional<Snapshot> snapshot;
 };
@@ -34,8 +34,8 @@ Recording load(const std::string& path, std::uint64_t until);
 struct BodyRow {
   std::vector<std::uint64_t> ids;
   std::vector<std::uint8_t> awake;
-  std::vector<PosReal> position;   // x3
-  std::vector<Real> orientation;   // x4
+  std::vector<PosReal> position;                        // x3
+  std::vector<Real> orientation;                        // x4
   std::vector<Real> linear_velocity, angular_velocity;  // x3
 };
 // Empty when the recording holds no body states at that frame.

@@ -14,9 +14,9 @@ ResumeResult resume(const std::string& path, std::uint64_t frame) {
   if (!result.outcome.ok()) return result;
   const RecordingInfo& info = recording.info;
   if (frame < recording.snapshot_frame || frame > info.last_frame) {
-    result.outcome = Outcome::failed(path + ": has frames " + std::to_string(info.first_frame) +
-                                     " to " + std::to_string(info.last_frame) + ", not " +
-                                     std::to_string(frame));
+    result.outcome =
+        Outcome::failed(path + ": has frames " + std::to_string(info.first_frame) + " to " +
+                        std::to_string(info.last_frame) + ", not " + std::to_string(frame));
     return result;
   }
   PhysicsWorld world;

@@ -12,10 +12,10 @@ namespace replay {
 
 std::string Difference::text() const {
   std::array<char, 512> line{};
-  std::snprintf(line.data(), line.size(), "frame %llu differs: state hash %016llx, recorded %016llx",
-                static_cast<unsigned long long>(frame),
-                static_cast<unsigned long long>(computed_hash),
-                static_cast<unsigned long long>(recorded_hash));
+  std::snprintf(
+      line.data(), line.size(), "frame %llu differs: state hash %016llx, recorded %016llx",
+      static_cast<unsigned long long>(frame), static_cast<unsigned long long>(computed_hash),
+      static_cast<unsigned long long>(recorded_hash));
   std::string all = line.data();
   if (quantity.empty()) return all;
   const std::string who = body ? "body " + std::to_string(body->index) + ", " : "";
@@ -66,9 +66,9 @@ VerifyResult diff(const std::string& path_a, const std::string& path_b) {
   result.outcome = a.info.outcome.ok() ? b.info.outcome : a.info.outcome;
   if (!result.outcome.ok()) return result;
   if (a.info.precision != b.info.precision) {
-    result.outcome = Outcome::failed(path_a + " was recorded by the " + a.info.precision +
-                                     " build, " + path_b + " by the " + b.info.precision +
-                                     " build: their bits cannot be the same");
+    result.outcome =
+        Outcome::failed(path_a + " was recorded by the " + a.info.precision + " build, " + path_b +
+                        " by the " + b.info.precision + " build: their bits cannot be the same");
     return result;
   }
   std::size_t i = 0, k = 0;

@@ -37,11 +37,11 @@ typedef enum plumb_rr_type {
  * and width are checked) or one of the user's own ("plumb.<Archetype>:<field>"; any type). */
 typedef struct plumb_rr_column {
   const char* component;
-  uint32_t type;          /* plumb_rr_type */
-  uint32_t width;         /* numbers per instance, >= 1; 1 for text */
-  const void* data;       /* instances one after the other; text: the bytes of all strings */
-  uint64_t instances;     /* in all rows together */
-  const uint32_t* counts; /* instances of each row; null: the same in every row */
+  uint32_t type;             /* plumb_rr_type */
+  uint32_t width;            /* numbers per instance, >= 1; 1 for text */
+  const void* data;          /* instances one after the other; text: the bytes of all strings */
+  uint64_t instances;        /* in all rows together */
+  const uint32_t* counts;    /* instances of each row; null: the same in every row */
   const uint64_t* text_ends; /* text only: end of each string in data */
 } plumb_rr_column;
 
@@ -84,8 +84,8 @@ typedef struct plumb_rr_view {
 typedef struct plumb_rr_layout {
   const plumb_rr_view* views;
   size_t view_count;
-  const char* timeline;      /* that the time panel stands on */
-  float frames_per_second;   /* > 0, playback of a sequence timeline */
+  const char* timeline;           /* that the time panel stands on */
+  float frames_per_second;        /* > 0, playback of a sequence timeline */
   float eye[3], target[3], up[3]; /* first 3D view; eye equal to target: left to the viewer */
 } plumb_rr_layout;
 
@@ -96,9 +96,9 @@ plumb_rr_writer* plumb_rr_open(const char* path, const char* application_id,
                                const char* recording_name, char* error, size_t error_size);
 int plumb_rr_send_layout(plumb_rr_writer* writer, const plumb_rr_layout* layout, char* error,
                          size_t error_size);
-/* Copies the columns and returns; a thread of the writer encodes, compresses and writes them. Blocks
- * only while more than a fixed number of bytes waits to be written. After a failed write every call
- * returns that failure at once. */
+/* Copies the columns and returns; a thread of the writer encodes, compresses and writes them.
+ * Blocks only while more than a fixed number of bytes waits to be written. After a failed write
+ * every call returns that failure at once. */
 int plumb_rr_send(plumb_rr_writer* writer, const plumb_rr_chunk* chunk, char* error,
                   size_t error_size);
 /* Returns when all that was sent is with the operating system; durable: on the disk. */
@@ -106,19 +106,18 @@ int plumb_rr_flush(plumb_rr_writer* writer, double timeout_seconds, int durable,
                    size_t error_size);
 uint64_t plumb_rr_bytes_written(const plumb_rr_writer* writer);
 /* Writes the footer and frees the writer, in any case. */
-int plumb_rr_close(plumb_rr_writer* writer, double timeout_seconds, char* error,
-                   size_t error_size);
+int plumb_rr_close(plumb_rr_writer* writer, double timeout_seconds, char* error, size_t error_size);
 
 /* One component of one row. All pointers are valid during the callback only. */
 typedef struct plumb_rr_cell {
-  const char* entity;    /* without leading slash */
+  const char* entity; /* without leading slash */
   const char* component;
   uint32_t type;
   uint32_t width;
   uint64_t instances;
-  const void* data;      /* aligned for its type */
+  const void* data; /* aligned for its type */
   const uint64_t* text_ends;
-  size_t time_count;     /* 0: static */
+  size_t time_count; /* 0: static */
   const char* const* time_names;
   const int64_t* times;
 } plumb_rr_cell;
@@ -126,9 +125,9 @@ typedef struct plumb_rr_cell {
 typedef int (*plumb_rr_cell_callback)(void* user, const plumb_rr_cell* cell); /* nonzero: stop */
 
 typedef struct plumb_rr_summary {
-  int finished;         /* the footer is there and whole: the writer was closed */
+  int finished; /* the footer is there and whole: the writer was closed */
   uint64_t file_bytes;
-  uint64_t cut_bytes;   /* at the end of the file, of a message that is not whole */
+  uint64_t cut_bytes; /* at the end of the file, of a message that is not whole */
   uint64_t chunks;
   char application_id[128];
   char recording_id[128];

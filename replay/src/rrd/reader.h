@@ -40,9 +40,9 @@ class Cell {
 };
 
 struct Summary {
-  bool finished = false;         // closed by its writer
+  bool finished = false;  // closed by its writer
   std::uint64_t file_bytes = 0;
-  std::uint64_t cut_bytes = 0;   // of a last message that is not whole
+  std::uint64_t cut_bytes = 0;  // of a last message that is not whole
   std::uint64_t chunks = 0;
   std::string application_id, recording_id;
 };
@@ -52,8 +52,8 @@ struct ReadResult {
   Summary summary;
 };
 
-// Visits the cells of all entities that begin with the prefix, in the order they were written, until
-// the visitor returns false.
+// Visits the cells of all entities that begin with the prefix, in the order they were written,
+// until the visitor returns false.
 ReadResult read(const std::string& path, const std::string& entity_prefix,
                 const std::function<bool(const Cell&)>& visit);
 

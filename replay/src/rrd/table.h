@@ -16,17 +16,22 @@
 
 namespace plumb::rrd {
 
-inline constexpr const char* kFrameTimeline = "frame";     // step number
-inline constexpr const char* kTimeTimeline = "sim_time";   // simulated time
+inline constexpr const char* kFrameTimeline = "frame";    // step number
+inline constexpr const char* kTimeTimeline = "sim_time";  // simulated time
 
 // The recorded type of a number type.
 template <class T>
 inline constexpr plumb_rr_type kTypeOf = [] {
-  if constexpr (std::is_same_v<T, float>) return PLUMB_RR_F32;
-  else if constexpr (std::is_same_v<T, double>) return PLUMB_RR_F64;
-  else if constexpr (std::is_same_v<T, std::uint8_t>) return PLUMB_RR_U8;
-  else if constexpr (std::is_same_v<T, std::uint32_t>) return PLUMB_RR_U32;
-  else if constexpr (std::is_same_v<T, std::uint64_t>) return PLUMB_RR_U64;
+  if constexpr (std::is_same_v<T, float>)
+    return PLUMB_RR_F32;
+  else if constexpr (std::is_same_v<T, double>)
+    return PLUMB_RR_F64;
+  else if constexpr (std::is_same_v<T, std::uint8_t>)
+    return PLUMB_RR_U8;
+  else if constexpr (std::is_same_v<T, std::uint32_t>)
+    return PLUMB_RR_U32;
+  else if constexpr (std::is_same_v<T, std::uint64_t>)
+    return PLUMB_RR_U64;
 }();
 
 // Bytes that grow without being cleared first: what is extended is about to be written.

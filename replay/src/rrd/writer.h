@@ -1,5 +1,5 @@
-// A recording being written: RAII over the C interface of the Rerun bridge. The first failure is kept
-// and everything after it is a no-op, so that who records need not ask at every row.
+// A recording being written: RAII over the C interface of the Rerun bridge. The first failure is
+// kept and everything after it is a no-op, so that who records need not ask at every row.
 #pragma once
 
 #include <cstdint>

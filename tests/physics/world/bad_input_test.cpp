@@ -126,7 +126,8 @@ TEST_F(BadInput, BodyNumbers) {
 }
 
 TEST_F(BadInput, Frictions) {
-  for (double bad : {-1.0, kNan, kInf}) refused_collider(with(sphere(1), material(bad)), "friction");
+  for (double bad : {-1.0, kNan, kInf})
+    refused_collider(with(sphere(1), material(bad)), "friction");
 }
 
 TEST_F(BadInput, Restitutions) {
@@ -278,7 +279,8 @@ TEST_F(BadInput, Settings) {
   refused_settings([](WorldSettings& s) { s.contact_frequency = real(kNan); }, "contact frequency");
   refused_settings([](WorldSettings& s) { s.contact_damping_ratio = -1; }, "damping ratio");
   refused_settings([](WorldSettings& s) { s.time_to_sleep = -1; }, "time to sleep");
-  refused_settings([](WorldSettings& s) { s.rotation = static_cast<RotationMethod>(9); }, "rotation");
+  refused_settings([](WorldSettings& s) { s.rotation = static_cast<RotationMethod>(9); },
+                   "rotation");
 }
 
 TEST_F(BadInput, Snapshots) {

@@ -1,7 +1,7 @@
-// Proves that the known faults of the classic teaching engines are absent: each test names what such
-// an engine does and asserts what must hold instead. [Millington 2010] is the engine meant. Numbers
-// are those of the catalogue of faults; 1, 4 and 7 (tree, box tensor, contact basis) are tested
-// beside the code they concern, 15 (springs, buoyancy) with those effects.
+// Proves that the known faults of the classic teaching engines are absent: each test names what
+// such an engine does and asserts what must hold instead. [Millington 2010] is the engine meant.
+// Numbers are those of the catalogue of faults; 1, 4 and 7 (tree, box tensor, contact basis) are
+// tested beside the code they concern, 15 (springs, buoyancy) with those effects.
 #include <gtest/gtest.h>
 
 #include "support/measure.h"
@@ -29,8 +29,7 @@ TEST(BookFaults, F02_AngularMomentumOfATumblingBodyIsConstant) {
     const Vector3d L = wide(world.angular_momentum(body));
     // The same through what is seen from outside: w and the attitude.
     const Eigen::Matrix3d R = orientation(world, body).toRotationMatrix();
-    const Vector3d seen =
-        R * Vector3d(1, 2, 3).asDiagonal() * R.transpose() * spin(world, body);
+    const Vector3d seen = R * Vector3d(1, 2, 3).asDiagonal() * R.transpose() * spin(world, body);
     ASSERT_LE((L - L0).norm(), 1e-12 * L0.norm());  // the stored state: not even round-off
     ASSERT_LE((seen - L0).norm(), bar(1e-12, 1e-5) * L0.norm());
   });
@@ -161,8 +160,7 @@ TEST(BookFaults, F12_AFastBallNeverPassesAThinWall) {
     add(world, body_at(at(10, 0, 0), MotionType::Static), with(box(0.1, 5, 5)));
     const double speed = 100;
     const double start = speed * kDt * phase / 60;
-    const BodyId ball =
-        add(world, moving(at(start, 0, 0), vec(speed, 0, 0)), with(sphere(0.1)));
+    const BodyId ball = add(world, moving(at(start, 0, 0), vec(speed, 0, 0)), with(sphere(0.1)));
     run(world, 0.5);
     if (position(world, ball).x() > 10) ++passed;
   }
@@ -225,7 +223,8 @@ TEST(BookFaults, F17_ThreeBallCradle) {
     run(world, 1);
     const double expected[] = {0, 0, 1};
     for (std::size_t i = 0; i < 3; ++i)
-      EXPECT_NEAR(velocity(world, balls[i]).x(), expected[i], 0.01) << "ball " << i << " gap " << gap;
+      EXPECT_NEAR(velocity(world, balls[i]).x(), expected[i], 0.01)
+          << "ball " << i << " gap " << gap;
   }
 }
 

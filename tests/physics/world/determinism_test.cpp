@@ -37,14 +37,23 @@ void disturb(PhysicsWorld& world, const Built& built, int step) {
   const BodyId body = built.bodies[static_cast<std::size_t>(step * 7) % 125];
   if (!world.is_valid(body)) return;
   switch (step % 10) {
-    case 1: must(world.apply_force_at_body_point(body, vec(2000, 500, 0), vec(0.1, 0.2, 0))); break;
-    case 3: must(world.apply_impulse(body, vec(0, 300, 100))); break;
-    case 5: must(world.apply_torque(body, vec(10, 200, 0))); break;
-    case 7: must(world.set_linear_velocity(body, vec(0, 2, 0))); break;
+    case 1:
+      must(world.apply_force_at_body_point(body, vec(2000, 500, 0), vec(0.1, 0.2, 0)));
+      break;
+    case 3:
+      must(world.apply_impulse(body, vec(0, 300, 100)));
+      break;
+    case 5:
+      must(world.apply_torque(body, vec(10, 200, 0)));
+      break;
+    case 7:
+      must(world.set_linear_velocity(body, vec(0, 2, 0)));
+      break;
     case 9:
       if (step == 59) must(world.destroy_body(body));
       break;
-    default: break;
+    default:
+      break;
   }
 }
 std::vector<std::uint64_t> hashes(JobSystem* jobs) {
@@ -178,7 +187,8 @@ TEST(Determinism, SaveAndRestoreASleepingWorld) {
   must(other.restore(world.save()));
   for (int i = 0; i < 120; ++i) {
     if (i == 30)
-      for (PhysicsWorld* w : {&world, &other}) must(w->apply_impulse(stack.bodies[1], vec(500, 0, 0)));
+      for (PhysicsWorld* w : {&world, &other})
+        must(w->apply_impulse(stack.bodies[1], vec(500, 0, 0)));
     world.step(kDt);
     other.step(kDt);
     ASSERT_EQ(world.state_hash(), other.state_hash()) << "step " << i;

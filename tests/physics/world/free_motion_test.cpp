@@ -28,7 +28,8 @@ TEST(FreeMotion, F1_ProjectileIsExactAtAnyStep) {
     // Largest values on the way: 300 m, 58 m/s. Each substep rounds v and x once; an error in v
     // acts on x for up to t.
     const double steps = t / dt * kSubsteps;
-    const double v_error = sum_error(steps, 60), x_error = v_error * t + sum_error(steps, 300, kPosEps);
+    const double v_error = sum_error(steps, 60),
+                 x_error = v_error * t + sum_error(steps, 300, kPosEps);
     EXPECT_LE((velocity(world, body) - v).norm(), std::min(v_error, bar(1e-12 * 60, 1))) << dt;
     EXPECT_LE((position(world, body) - x).norm(), std::min(x_error, bar(1e-12 * 300, 10))) << dt;
   }
@@ -47,7 +48,8 @@ TEST(FreeMotion, F2_LinearDragIsExactAtAnyStep) {
     const Vector3d x(51.87988300580, 24.62262082687, 0);
     const double v_error = sum_error(t / dt * kSubsteps, 50);
     EXPECT_LE((position(world, body) - x).norm(),
-              bar(1e-6, v_error * t + sum_error(t / dt * kSubsteps, 65, kPosEps))) << "dt " << dt;
+              bar(1e-6, v_error * t + sum_error(t / dt * kSubsteps, 65, kPosEps)))
+        << "dt " << dt;
     // y'(t) = (40 + g tau) exp(-t/tau) - g tau
     const double vy = (40 + kGravity * tau) * std::exp(-t / tau) - kGravity * tau;
     EXPECT_NEAR(velocity(world, body).y(), vy, bar(1e-9, v_error)) << "dt " << dt;
@@ -149,14 +151,22 @@ TEST(FreeMotion, ForcesAndImpulsesAtPointsAgree) {
     spec.pose = at(x0, q);
     const BodyId body = must(world.create_body(spec));
     switch (way) {
-      case ImpulseAt: must(world.apply_impulse_at(body, vec(J), pos(x0 + r))); break;
-      case ImpulseAtBody: must(world.apply_impulse_at_body_point(body, vec(J), vec(p_B))); break;
+      case ImpulseAt:
+        must(world.apply_impulse_at(body, vec(J), pos(x0 + r)));
+        break;
+      case ImpulseAtBody:
+        must(world.apply_impulse_at_body_point(body, vec(J), vec(p_B)));
+        break;
       case CentreAndTurn:
         must(world.apply_impulse(body, vec(J)));
         must(world.apply_angular_impulse(body, vec(r.cross(J))));
         break;
-      case ForceAt: must(world.apply_force_at(body, vec(J / h), pos(x0 + r))); break;
-      case ForceAtBody: must(world.apply_force_at_body_point(body, vec(J / h), vec(p_B))); break;
+      case ForceAt:
+        must(world.apply_force_at(body, vec(J / h), pos(x0 + r)));
+        break;
+      case ForceAtBody:
+        must(world.apply_force_at_body_point(body, vec(J / h), vec(p_B)));
+        break;
       case ForceAndTorque:
         must(world.apply_force(body, vec(J / h)));
         must(world.apply_torque(body, vec(r.cross(J) / h)));
@@ -166,7 +176,8 @@ TEST(FreeMotion, ForcesAndImpulsesAtPointsAgree) {
     EXPECT_LE((velocity(world, body) - J / 2).norm(), 16 * kEps * J.norm()) << way;
     // World points carry the rounding of a position near 4 m into the lever arm.
     EXPECT_LE((wide(world.angular_momentum(body)) - r.cross(J)).norm(),
-              (16 * kEps + 4 * kPosEps) * J.norm()) << way;
+              (16 * kEps + 4 * kPosEps) * J.norm())
+        << way;
   }
 }
 

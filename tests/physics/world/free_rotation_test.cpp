@@ -66,14 +66,15 @@ TEST(FreeRotation, F6_FlipsComeAtTheirTimes) {
       // Single precision: each step turns the attitude by about 1e-7 rad of rounding, 1e-5 of the
       // perturbation that the flips grow from, and it is the perturbation that sets the period.
       EXPECT_NEAR(times[i], 1.037730488233 + 2.075460976467 * static_cast<double>(i),
-                  bar(1e-6, 2e-3)) << "flip " << i << " step " << h;
+                  bar(1e-6, 2e-3))
+          << "flip " << i << " step " << h;
     }
   }
 }
 
-// Perturbations of 1e-3, 1e-4 and 1e-6 of the spin; the flip is complete after twice the time at which
-// the spin about the middle axis passes zero: 2 K(k^2)/lambda, evaluated with 30 digits (in double
-// 1 - k^2 = 1e-12 of the last case loses its fifth digit).
+// Perturbations of 1e-3, 1e-4 and 1e-6 of the spin; the flip is complete after twice the time at
+// which the spin about the middle axis passes zero: 2 K(k^2)/lambda, evaluated with 30 digits (in
+// double 1 - k^2 = 1e-12 of the last case loses its fifth digit).
 TEST(FreeRotation, F6_FirstFlipOfSmallPerturbations) {
   struct Case {
     double w1, flip, in_float;
@@ -125,8 +126,9 @@ TEST(FreeRotation, F7_SymmetricTopPrecessesAtItsRate) {
   const double t = 3;
   run(world, t);
   // Attitude: exp(L t/I1) exp(-(I3/I1 - 1) w3 t e3).
-  const Eigen::Quaterniond exact = Eigen::Quaterniond(Eigen::AngleAxisd(L.norm() * t, L.normalized())) *
-                                   Eigen::Quaterniond(Eigen::AngleAxisd(-0.8 * 4 * t, Vector3d::UnitZ()));
+  const Eigen::Quaterniond exact =
+      Eigen::Quaterniond(Eigen::AngleAxisd(L.norm() * t, L.normalized())) *
+      Eigen::Quaterniond(Eigen::AngleAxisd(-0.8 * 4 * t, Vector3d::UnitZ()));
   // 22 rad turned in all; the rate carries eps, and each of 720 substeps rounds the attitude.
   EXPECT_LE(angle_between(orientation(world, top), exact), bar(1e-12, (30 + 720) * kEps));
 }
@@ -145,9 +147,8 @@ TEST(FreeRotation, ThinRodAndDiscAtHighSpinKeepTheirEnergy) {
       const BodyId body = must(world.create_body(spec));
       const double E0 = world.energy().kinetic_angular;
       double dE = 0;
-      run(world, 10, dt, [&] {
-        dE = std::max(dE, std::abs(world.energy().kinetic_angular - E0) / E0);
-      });
+      run(world, 10, dt,
+          [&] { dE = std::max(dE, std::abs(world.energy().kinetic_angular - E0) / E0); });
       // Attitude round-off turns L into the light axis: eps Imax/Imin of |w| h a step.
       EXPECT_LE(dE, bar(1e-10, 2e-2)) << c.moments.transpose() << " dt " << dt;
       EXPECT_TRUE(all_finite(world));

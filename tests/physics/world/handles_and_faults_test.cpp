@@ -1,5 +1,5 @@
-// Proves that destroying things at bad moments is safe, that a stale handle is always recognised, and
-// that a body whose state becomes non-finite is put aside while all others go on bit for bit.
+// Proves that destroying things at bad moments is safe, that a stale handle is always recognised,
+// and that a body whose state becomes non-finite is put aside while all others go on bit for bit.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -121,7 +121,8 @@ TEST(Quarantine, ANonFiniteBodyIsPutAsideAndReported) {
   std::vector<BodyId> others;
   for (PhysicsWorld* w : {&world, &twin}) {
     others = build_stack(*w, {.count = 3, .gap = 0.1}).bodies;
-    others.push_back(add(*w, moving(at(5, 3, 0), vec(1, 2, 3), vec(4, 5, 6)), with(box(0.2, 0.3, 0.4))));
+    others.push_back(
+        add(*w, moving(at(5, 3, 0), vec(1, 2, 3), vec(4, 5, 6)), with(box(0.2, 0.3, 0.4))));
     RigidBody far = body_at(at(50, 10, 0));
     doomed = add(*w, far, with(sphere(0.5), {}, 1e-3));
     run(*w, 0.2);

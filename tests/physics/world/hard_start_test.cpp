@@ -13,8 +13,8 @@ namespace {
 using namespace scenes;
 using Eigen::Vector3d;
 
-constexpr double kDt = 1.0 / 60;      // [s]
-constexpr double kGentle = 5;         // [m/s] reference case H10
+constexpr double kDt = 1.0 / 60;  // [s]
+constexpr double kGentle = 5;     // [m/s] reference case H10
 
 TEST(HardStart, H10_AQuarterOverlapPartsGently) {
   PhysicsWorld world(no_sleep());
@@ -64,9 +64,9 @@ TEST(HardStart, H11_ABadStepIsRefused) {
   run(world, 0.1);
   const std::uint64_t hash = world.state_hash(), steps = world.step_count();
   const double time = world.time();
-  for (double dt : {-1.0 / 60, -1e-300, std::numeric_limits<double>::quiet_NaN(),
-                    std::numeric_limits<double>::infinity(),
-                    -std::numeric_limits<double>::infinity()}) {
+  for (double dt :
+       {-1.0 / 60, -1e-300, std::numeric_limits<double>::quiet_NaN(),
+        std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
     const StepReport& report = world.step(dt);
     EXPECT_FALSE(report.status.ok()) << dt;
     EXPECT_NE(std::string(report.status.message), "") << dt;
@@ -108,8 +108,14 @@ TEST(HardStart, H12_BulletsDoNotPassThinPlates) {
       const Vector3d w = random.direction() * random.uniform(0, 100);
       const BodyId bullet = add(world, moving(at(-distance, 0, 0), vec(v), vec(w)),
                                 with(sphere(c.radius), material(0.3, shot % 2 == 0 ? 0 : 0.5)));
-      run(world, 0.2);
-      if (!(position(world, bullet).x() < 0)) ++passed;
+      // Until it has slid to the plate's end: what leaves there may go where it likes.
+      for (int i = 0; i < 12 && std::abs(position(world, bullet).y()) < 19; ++i) {
+        world.step(kDt);
+        if (std::abs(position(world, bullet).y()) < 19 && !(position(world, bullet).x() < 0)) {
+          ++passed;
+          break;
+        }
+      }
     }
     EXPECT_EQ(passed, 0) << "of 100, speed " << c.speed << " plate " << 2 * c.plate;
   }
@@ -135,7 +141,8 @@ TEST(HardStart, H12_TwoFastBodiesMeet) {
   int passed = 0;
   for (int phase = 0; phase < 50; ++phase) {
     PhysicsWorld world(no_gravity());
-    const BodyId a = add(world, moving(at(-3 - phase * 0.03, 0, 0), vec(100, 0, 0)), with(sphere(0.1)));
+    const BodyId a =
+        add(world, moving(at(-3 - phase * 0.03, 0, 0), vec(100, 0, 0)), with(sphere(0.1)));
     const BodyId b = add(world, moving(at(3, 0, 0), vec(-100, 0, 0)), with(sphere(0.1)));
     run(world, 0.2);
     if (position(world, a).x() > position(world, b).x()) ++passed;

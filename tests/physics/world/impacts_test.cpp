@@ -1,9 +1,10 @@
-// Proves that bounces keep their promise at 60 Hz: restitution gives the right heights and times, an
-// elastic bounce keeps its energy, friction at impact follows Coulomb's law, and momentum is exact.
+// Proves that bounces keep their promise at 60 Hz: restitution gives the right heights and times,
+// an elastic bounce keeps its energy, friction at impact follows Coulomb's law, and momentum is
+// exact.
 //
 // Cut-off: restitution is left out for approaches slower than a threshold that follows from gravity
-// and the substep (a fraction of g h for a new contact, a few g h for one that was resting), so that
-// a ball comes to rest at all; without gravity the threshold is zero.
+// and the substep (a fraction of g h for a new contact, a few g h for one that was resting), so
+// that a ball comes to rest at all; without gravity the threshold is zero.
 #include <gtest/gtest.h>
 
 #include "support/measure.h"
@@ -20,7 +21,8 @@ constexpr double kSubsteps = 4;
 
 BodyId drop_ball(PhysicsWorld& world, double height, double restitution, double radius = 0.5) {
   add_floor(world, material(0, restitution));
-  return add(world, body_at(at(0, radius + height, 0)), with(sphere(radius), material(0, restitution)));
+  return add(world, body_at(at(0, radius + height, 0)),
+             with(sphere(radius), material(0, restitution)));
 }
 
 // Reference case I1: dropped 1 m with e = 0.8, at rest after 4.0637 s.
@@ -31,7 +33,7 @@ TEST(Impacts, I1_BallComesToRestAfterItsLastBounce) {
   run(world, 6, kDt, [&] {
     if (std::abs(velocity(world, ball).y()) > 1e-3) last_moving = world.time();
   });
-  const double rest = 4.063712768872;  // [s] = sqrt(2 h/g) (1 + e)/(1 - e)
+  const double rest = 4.063712768872;                 // [s] = sqrt(2 h/g) (1 + e)/(1 - e)
   EXPECT_NEAR(last_moving, rest, 0.01 * rest + kDt);  // seen at step ends only
   EXPECT_LT(std::abs(velocity(world, ball).y()), 1e-3);
   EXPECT_NEAR(position(world, ball).y(), 0.5, 1e-3);
@@ -129,8 +131,8 @@ TEST(Impacts, I4_FrictionAtImpactSticksOrSlidesByCoulombsLaw) {
       const double mu = part * sticks_from;
       PhysicsWorld world(no_gravity());
       add_floor(world, material(mu, e));
-      const BodyId ball = add(world, moving(at(0, 0.55, 0), vec(vt, -vn, 0)),
-                              with(sphere(0.5), material(mu, e)));
+      const BodyId ball =
+          add(world, moving(at(0, 0.55, 0), vec(vt, -vn, 0)), with(sphere(0.5), material(mu, e)));
       run(world, 0.1);
       const double sliding = vt - mu * (1 + e) * vn;
       const double expected = part < 1 ? sliding : vt * 5 / 7;
@@ -164,7 +166,8 @@ TEST(Impacts, I5_ObliqueHitOfTwoBallsKeepsMomentumAndAngularMomentum) {
       EXPECT_LE((after.momentum - before.momentum).norm(), bar(1e-13, 32 * kEps) * p_scale)
           << "mu " << mu << " e " << e;
       EXPECT_LE((after.angular_momentum - before.angular_momentum).norm(),
-                bar(1e-13, 32 * kEps) * L_scale) << "mu " << mu << " e " << e;
+                bar(1e-13, 32 * kEps) * L_scale)
+          << "mu " << mu << " e " << e;
       if (e == 1 && mu == 0) {
         EXPECT_NEAR(after.total(), before.total(), bar(1e-12, 1e-5) * before.total());
       } else {
@@ -213,8 +216,8 @@ TEST(Impacts, FortyNineElasticBallsKeepTheirEnergyFor20Seconds) {
 TEST(Impacts, HitEventsTellWhereHowFastAndHowHard) {
   PhysicsWorld world(no_gravity());
   const BodyId floor = add_floor(world, material(0, 0.5));
-  const BodyId ball = add(world, moving(at(2, 0.6, 1), vec(0, -3, 0)),
-                          with(sphere(0.5), material(0, 0.5)));
+  const BodyId ball =
+      add(world, moving(at(2, 0.6, 1), vec(0, -3, 0)), with(sphere(0.5), material(0, 0.5)));
   const double m = world.mass_properties(ball).mass;
   int hits = 0;
   run(world, 0.2, kDt, [&] {

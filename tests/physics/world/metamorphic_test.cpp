@@ -2,8 +2,8 @@
 // built in another order, or given a far companion behaves as before.
 //
 // The scene is a short, lively one that is not chaotic: a tumbling box and a ball come down on a
-// floor, a slider stops, a small stack settles. Rounding differs after a rotation, so the tolerance is
-// what a few contacts make of it: about 1e3 times the round-off of a position.
+// floor, a slider stops, a small stack settles. Rounding differs after a rotation, so the tolerance
+// is what a few contacts make of it: about 1e3 times the round-off of a position.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kDt = 1.0 / 60;     // [s]
-constexpr double kSeconds = 1.5;     // [s] two bounces and a stop
+constexpr double kDt = 1.0 / 60;       // [s]
+constexpr double kSeconds = 1.5;       // [s] two bounces and a stop
 const double kSame = bar(1e-9, 2e-3);  // [m]
 
 struct Item {
@@ -60,8 +60,9 @@ Positions simulate(const Place& place, const Vector3d& foot = Vector3d::Zero(),
   std::vector<BodyId> bodies(list.size());
   for (std::size_t i : order) {
     const Item item = place(list[i]);
-    bodies[i] = add(world, moving(at(item.position, Quat(item.q.cast<Real>())), vec(item.v), vec(item.w)),
-                    with(item.shape, material(item.friction, item.restitution)));
+    bodies[i] =
+        add(world, moving(at(item.position, Quat(item.q.cast<Real>())), vec(item.v), vec(item.w)),
+            with(item.shape, material(item.friction, item.restitution)));
   }
   run(world, kSeconds);
   Positions out;
@@ -71,7 +72,8 @@ Positions simulate(const Place& place, const Vector3d& foot = Vector3d::Zero(),
 Positions plain() {
   return simulate([](const Item& item) { return item; });
 }
-void expect_same(const Positions& a, const Positions& b, double tolerance, const std::string& what) {
+void expect_same(const Positions& a, const Positions& b, double tolerance,
+                 const std::string& what) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
     EXPECT_LE((a[i] - b[i]).norm(), tolerance) << what << ", item " << i;
@@ -117,8 +119,9 @@ TEST(Metamorphic, RotationAboutGravity) {
 }
 
 // All shapes here are their own mirror images. w and the rotation axis are axial vectors. A mirror
-// image has its contact points in another order, and points of a face are solved one after the other:
-// what one pass leaves unsolved differs (3.6e-3 m for the tumbling box; kSame would need convergence).
+// image has its contact points in another order, and points of a face are solved one after the
+// other: what one pass leaves unsolved differs (3.6e-3 m for the tumbling box; kSame would need
+// convergence).
 const double kOtherPointOrder = 1e-2;  // [m]
 TEST(Metamorphic, MirrorImage) {
   const Vector3d flip(-1, 1, 1);
@@ -145,11 +148,12 @@ TEST(Metamorphic, OrderOfCreation) {
 
 // Bodies that never meet these may not influence them at all.
 TEST(Metamorphic, AFarBodyChangesNothing) {
-  const Positions with_far = simulate([](const Item& item) { return item; }, Vector3d::Zero(), {},
-                                      [](PhysicsWorld& world) {
-    for (int i = 0; i < 10; ++i)
-      add(world, moving(at(1000 + 3 * i, 5, 0), vec(0, 1, 0), vec(1, 2, 3)), with(cube(1)));
-  });
+  const Positions with_far = simulate(
+      [](const Item& item) { return item; }, Vector3d::Zero(), {},
+      [](PhysicsWorld& world) {
+        for (int i = 0; i < 10; ++i)
+          add(world, moving(at(1000 + 3 * i, 5, 0), vec(0, 1, 0), vec(1, 2, 3)), with(cube(1)));
+      });
   const Positions alone = plain();
   expect_same(with_far, alone, kSame, "far bodies");
 }
@@ -162,14 +166,16 @@ TEST(Metamorphic, GravityAlongAnotherAxis) {
     PhysicsWorld world(settings);
     add_floor(world, material(0.5), R * Vector3d::UnitY());
     const Quaterniond q = R * Quaterniond(Eigen::AngleAxisd(0.3, Vector3d(1, 0, 1).normalized()));
-    const BodyId body =
-        add(world, moving(at(R * Vector3d(1, 2, 3), Quat(q.cast<Real>())), vec(R * Vector3d(1, 0, 0)),
-                          vec(R * Vector3d(0, 1, 0))), with(box(0.3, 0.4, 0.5)));
+    const BodyId body = add(world,
+                            moving(at(R * Vector3d(1, 2, 3), Quat(q.cast<Real>())),
+                                   vec(R * Vector3d(1, 0, 0)), vec(R * Vector3d(0, 1, 0))),
+                            with(box(0.3, 0.4, 0.5)));
     run(world, 1.5);
     return Vector3d(R.conjugate() * position(world, body));
   };
   const Vector3d reference = drop(Quaterniond::Identity());
-  for (const Vector3d& axis : {Vector3d::UnitX().eval(), Vector3d::UnitZ().eval(), Vector3d(1, 1, 1)}) {
+  for (const Vector3d& axis :
+       {Vector3d::UnitX().eval(), Vector3d::UnitZ().eval(), Vector3d(1, 1, 1)}) {
     const Quaterniond R(Eigen::AngleAxisd(kPi / 2, axis.normalized()));
     EXPECT_LE((drop(R) - reference).norm(), kSame) << axis.transpose();
   }

@@ -125,16 +125,16 @@ TEST(SeedStatements, S07_ProductsVanishOnlyInPrincipalAxesThroughTheCentre) {
   const Quaterniond tilt(Eigen::AngleAxisd(0.5, Vector3d(1, 2, 3).normalized()));
   const MassProperties tilted = block.placed(Vector3d::Zero(), tilt);
   EXPECT_EQ(product(block.I_Bcm_B), 0);
-  EXPECT_GT(product(tilted.I_Bcm_B), 0.01);                          // other axes
-  EXPECT_GT(product(block.inertia_about({0.3, 0.5, 0.9})), 0.01);    // another point
+  EXPECT_GT(product(tilted.I_Bcm_B), 0.01);                        // other axes
+  EXPECT_GT(product(block.inertia_about({0.3, 0.5, 0.9})), 0.01);  // another point
   const MassProperties::Principal principal = tilted.principal();
   const Matrix3d back = principal.R_BP.transpose() * tilted.I_Bcm_B * principal.R_BP;
   EXPECT_LE(product(back), 1e-14 * tilted.I_Bcm_B.norm());
 }
 
 TEST(SeedStatements, S08_DampingIsPerSecondAndTerminalSpeedConverges) {
-  const double kept = 0.5;              // [-] of the velocity after one second
-  const double c = -std::log(kept);     // [1/s]
+  const double kept = 0.5;           // [-] of the velocity after one second
+  const double c = -std::log(kept);  // [1/s]
   for (double dt : {1.0 / 10, 1.0 / 60, 1.0 / 240}) {
     PhysicsWorld free(no_gravity());
     RigidBody spec = free_body(1, {1, 1, 1});
@@ -142,8 +142,8 @@ TEST(SeedStatements, S08_DampingIsPerSecondAndTerminalSpeedConverges) {
     spec.linear_velocity = vec(8, 0, 0);
     const BodyId body = must(free.create_body(spec));
     run(free, 2, dt);
-    EXPECT_NEAR(velocity(free, body).x(), 8 * kept * kept,
-                sum_error(2 / dt * kSubsteps, 8)) << "dt " << dt;
+    EXPECT_NEAR(velocity(free, body).x(), 8 * kept * kept, sum_error(2 / dt * kSubsteps, 8))
+        << "dt " << dt;
 
     PhysicsWorld falling;
     spec.linear_velocity = Vec3::Zero();
@@ -193,7 +193,8 @@ TEST(SeedStatements, S10_ContactsKeepMomentumAndAngularMomentumAboutAnyPoint) {
   EXPECT_LE(moved.norm(), round_off * (L_scale + a.norm() * p_scale));
 }
 
-// --- one impact: a ball hits the top of a free box off its centre, without friction -----------------
+// --- one impact: a ball hits the top of a free box off its centre, without friction
+// -----------------
 struct OffCentreHit {
   double ball_mass = 2, box_mass = 5, speed = 3, restitution = 0.6;
   Vector3d half = {0.5, 0.3, 0.7}, r_box = {0.3, 0.3, -0.4}, n = {0, 1, 0};
@@ -274,8 +275,7 @@ TEST(SeedStatements, S13_ContactPointOfSpheresOfUnequalRadii) {
 TEST(SeedStatements, S14_VelocityChangePerUnitImpulse) {
   const OffCentreHit hit;
   const Vector3d turned = hit.box_moments.cwiseInverse().asDiagonal() * hit.r_box.cross(hit.n);
-  const double per_unit =
-      1 / hit.ball_mass + 1 / hit.box_mass + turned.cross(hit.r_box).dot(hit.n);
+  const double per_unit = 1 / hit.ball_mass + 1 / hit.box_mass + turned.cross(hit.r_box).dot(hit.n);
   const double expected = (1 + hit.restitution) * hit.speed / per_unit;  // [N s], downwards
   EXPECT_LE((hit.impulse() - Vector3d(0, -expected, 0)).norm(), kImpact * expected);
 }

@@ -1,5 +1,6 @@
-// Proves that islands at rest stop and wake again for every cause, that sleeping bodies cost no step,
-// and that events tell all of it: every begin has its end, every enter its exit, nothing is lost.
+// Proves that islands at rest stop and wake again for every cause, that sleeping bodies cost no
+// step, and that events tell all of it: every begin has its end, every enter its exit, nothing is
+// lost.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -220,7 +221,8 @@ TEST(Sleep, TenThousandSleepingBodiesAreNotStepped) {
   EXPECT_EQ(moved[0].id, scene.bodies[5000]);
 }
 
-// --- events ------------------------------------------------------------------------------------------
+// --- events
+// ------------------------------------------------------------------------------------------
 TEST(Events, EveryBeginHasItsEnd) {
   PhysicsWorld world;
   EventRecorder events;
@@ -261,7 +263,8 @@ TEST(Events, ContactEventsNameTheBodies) {
       EXPECT_EQ(e.kind, ContactEvent::Kind::Begin);
       EXPECT_EQ(world.body_of(e.a), e.body_a);
       EXPECT_EQ(world.body_of(e.b), e.body_b);
-      EXPECT_TRUE((e.body_a == floor && e.body_b == ball) || (e.body_a == ball && e.body_b == floor));
+      EXPECT_TRUE((e.body_a == floor && e.body_b == ball) ||
+                  (e.body_a == ball && e.body_b == floor));
       ++begins;
     }
   });

@@ -116,8 +116,8 @@ TEST(Stacking, LightAndHeavyInTurn) {
   Built stack;
   stack.ground = add_floor(world);
   for (int i = 0; i < 5; ++i)
-    stack.bodies.push_back(add(world, body_at(at(0, 0.5 + i, 0)),
-                               with(cube(0.5), {}, i % 2 == 0 ? 300.0 : 3000.0)));
+    stack.bodies.push_back(
+        add(world, body_at(at(0, 0.5 + i, 0)), with(cube(0.5), {}, i % 2 == 0 ? 300.0 : 3000.0)));
   run(world, 10);
   const Verdict v = judge(world, stack);
   EXPECT_LE(v.sideways, 1e-3);

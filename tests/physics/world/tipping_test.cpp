@@ -19,8 +19,8 @@ void set_gravity(PhysicsWorld& world, double angle, double part = 1) {
   settings.gravity = vec(part * kGravity * std::sin(angle), -part * kGravity * std::cos(angle), 0);
   must(world.set_settings(settings));
 }
-// A block within 0.1 degrees of tipping falls when it is lifted by a micrometre: contacts that take up
-// their load with a jolt would decide, not the geometry. So the load comes slowly.
+// A block within 0.1 degrees of tipping falls when it is lifted by a micrometre: contacts that take
+// up their load with a jolt would decide, not the geometry. So the load comes slowly.
 void load_gently(PhysicsWorld& world) {
   const int steps = 120;
   for (int i = 1; i <= steps; ++i) {
@@ -99,7 +99,8 @@ TEST(Tipping, C13_HarmonicOverhang) {
     for (int k = 4; k >= 1; --k) {
       reach += part / (2 * k);
       const double y = 0.1 + 0.2 * (4 - k);
-      blocks.push_back(add(world, body_at(at(reach - 0.5, y, 0)), with(box(0.5, 0.1, 0.25), rough)));
+      blocks.push_back(
+          add(world, body_at(at(reach - 0.5, y, 0)), with(box(0.5, 0.1, 0.25), rough)));
     }
     EXPECT_NEAR(reach, part * 1.0416667, 1e-6);
     load_gently(world);

@@ -1,5 +1,5 @@
-// Writes every step of a world into a Rerun recording (.rrd): for the eye (3D view, plots, text log,
-// with their layout) and for replay (scene, inputs, state hashes, exact snapshots).
+// Writes every step of a world into a Rerun recording (.rrd): for the eye (3D view, plots, text
+// log, with their layout) and for replay (scene, inputs, state hashes, exact snapshots).
 //
 //   plumb::replay::Recorder recorder;
 //   if (auto opened = recorder.open({.path = "run.rrd"}); !opened) report(opened.error);
@@ -8,8 +8,8 @@
 //   world.detach(&recorder);
 //   if (auto closed = recorder.close(); !closed) report(closed.error);
 //
-// A failing disk never harms the simulation: recording stops, the reason stands in status(). The file
-// can be read while it grows; what a killed process had handed over before stays readable.
+// A failing disk never harms the simulation: recording stops, the reason stands in status(). The
+// file can be read while it grows; what a killed process had handed over before stays readable.
 #pragma once
 
 #include <cstdint>
@@ -28,36 +28,36 @@ namespace replay {
 using rrd::Outcome;
 
 struct RecorderOptions {
-  std::string path = {};                // overwritten if it exists
+  std::string path = {};                 // overwritten if it exists
   std::string application_id = "plumb";  // recordings with the same one share the viewer's layout
-  std::string name = {};                // shown by the viewer; empty: the path
-  std::string scene = {};               // the scene as its file's text (JSON); kept as it is
+  std::string name = {};                 // shown by the viewer; empty: the path
+  std::string scene = {};                // the scene as its file's text (JSON); kept as it is
 
-  int snapshot_every = 60;              // [steps] >= 1 between exact snapshots
-  int rows_per_chunk = 30;              // [steps] >= 1 kept back and written as one piece
-  double frames_per_second = 60;        // [1/s] > 0, the viewer's playback
+  int snapshot_every = 60;        // [steps] >= 1 between exact snapshots
+  int rows_per_chunk = 30;        // [steps] >= 1 kept back and written as one piece
+  double frames_per_second = 60;  // [1/s] > 0, the viewer's playback
 
-  bool visuals = true;                  // shapes in 3D
-  bool contacts = true;                 // contact points and normals, each arrow scaled by its impulse
-  bool body_states = true;              // exact states of all moving bodies, for a diff by name
-  bool plots = true;                    // energies, counts, stage timings (WorldSettings::profiling)
-  bool text_log = true;                 // plan and events
-  int event_lines_per_step = 32;        // [-] >= 0; the rest is counted, not listed
+  bool visuals = true;            // shapes in 3D
+  bool contacts = true;           // contact points and normals, each arrow scaled by its impulse
+  bool body_states = true;        // exact states of all moving bodies, for a diff by name
+  bool plots = true;              // energies, counts, stage timings (WorldSettings::profiling)
+  bool text_log = true;           // plan and events
+  int event_lines_per_step = 32;  // [-] >= 0; the rest is counted, not listed
 };
 
 // A triangle mesh to look at.
 struct VisualMesh {
-  std::vector<Eigen::Vector3f> vertices;                          // [m] body frame
-  std::vector<Eigen::Matrix<std::uint32_t, 3, 1>> triangles;      // counter-clockwise from outside
-  std::uint32_t color = 0;                                        // 0xRRGGBBAA; 0: chosen
+  std::vector<Eigen::Vector3f> vertices;                      // [m] body frame
+  std::vector<Eigen::Matrix<std::uint32_t, 3, 1>> triangles;  // counter-clockwise from outside
+  std::uint32_t color = 0;                                    // 0xRRGGBBAA; 0: chosen
 };
 
 // What recording costs the thread that steps the world; encoding and writing have their own.
 struct RecorderCost {
-  double seconds = 0;              // [s] of the clock inside the recorder's callbacks
-  double cpu_seconds = 0;          // [s] of the processor, of the calling thread, in the same time
+  double seconds = 0;      // [s] of the clock inside the recorder's callbacks
+  double cpu_seconds = 0;  // [s] of the processor, of the calling thread, in the same time
   std::uint64_t steps = 0;
-  std::uint64_t body_steps = 0;    // sum over steps of the bodies in the world
+  std::uint64_t body_steps = 0;  // sum over steps of the bodies in the world
 
   // [s] of the processor
   [[nodiscard]] double seconds_per_body_step() const {
@@ -74,8 +74,8 @@ class Recorder final : public StepObserver {
   Recorder& operator=(Recorder&&) noexcept;
 
   Outcome open(const RecorderOptions& options);
-  // Draw a body as a mesh instead of its colliders. Bodies with the same mesh share it. To be called
-  // before attach; for a body created later, before the next step.
+  // Draw a body as a mesh instead of its colliders. Bodies with the same mesh share it. To be
+  // called before attach; for a body created later, before the next step.
   void show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh);
 
   // Hands over what is kept back, waits until it is written; durable: until it is on the disk.

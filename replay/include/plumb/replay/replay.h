@@ -15,25 +15,25 @@ namespace replay {
 using rrd::Outcome;
 
 struct RecordingInfo {
-  Outcome outcome;                  // not ok: the file could not be read; the rest as far as it was
+  Outcome outcome;  // not ok: the file could not be read; the rest as far as it was
   std::string application_id, recording_id;
   std::uint32_t schema_version = 0;
-  std::string precision;            // of the build that recorded: "f32", "f32d" or "f64"
-  std::string scene;                // as given to the recorder
-  std::uint64_t first_frame = 0;    // step number where the recording begins
-  std::uint64_t last_frame = 0;     // of the last recorded step
+  std::string precision;          // of the build that recorded: "f32", "f32d" or "f64"
+  std::string scene;              // as given to the recorder
+  std::uint64_t first_frame = 0;  // step number where the recording begins
+  std::uint64_t last_frame = 0;   // of the last recorded step
   std::uint64_t steps = 0, inputs = 0, snapshots = 0;
-  std::uint64_t bodies = 0;         // that can move, in the last row
-  double seconds = 0;               // [s] simulated between the first and the last step
-  bool finished = false;            // false: the recorder was never closed (killed, or still at work)
+  std::uint64_t bodies = 0;  // that can move, in the last row
+  double seconds = 0;        // [s] simulated between the first and the last step
+  bool finished = false;     // false: the recorder was never closed (killed, or still at work)
   std::uint64_t file_bytes = 0;
-  std::uint64_t cut_bytes = 0;      // at the file's end, of a piece that was not written to its end
+  std::uint64_t cut_bytes = 0;  // at the file's end, of a piece that was not written to its end
 };
 RecordingInfo info(const std::string& path);
 
 // The first place where two runs, or a run and its recording, are not bit-equal.
 struct Difference {
-  std::uint64_t frame = 0;            // step number
+  std::uint64_t frame = 0;  // step number
   std::uint64_t recorded_hash = 0, computed_hash = 0;
   // Known where the recording holds body states: the body that differs most at that step.
   std::optional<BodyId> body;
@@ -46,13 +46,13 @@ struct Difference {
 };
 
 struct VerifyOptions {
-  JobSystem* jobs = nullptr;          // to step with; null: the calling thread
+  JobSystem* jobs = nullptr;  // to step with; null: the calling thread
 };
 
 struct VerifyResult {
-  Outcome outcome;                    // not ok: no verdict
-  bool finished = false;              // the recording has its end; else what there is was verified
-  std::uint64_t steps = 0;            // compared
+  Outcome outcome;          // not ok: no verdict
+  bool finished = false;    // the recording has its end; else what there is was verified
+  std::uint64_t steps = 0;  // compared
   std::optional<Difference> difference;
 
   [[nodiscard]] bool identical() const { return outcome.ok() && !difference; }
@@ -61,8 +61,8 @@ struct VerifyResult {
 // Simulates again from the recording alone: its first snapshot, its inputs, its time steps.
 VerifyResult verify(const std::string& path, const VerifyOptions& options = {});
 
-// Compares two recordings step by step, without simulating. Frames that only one of them has are not
-// compared.
+// Compares two recordings step by step, without simulating. Frames that only one of them has are
+// not compared.
 VerifyResult diff(const std::string& path_a, const std::string& path_b);
 
 struct ResumeResult {
