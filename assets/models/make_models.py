@@ -255,8 +255,7 @@ def l_beam():
     return prism([(0, 0), (0.6, 0), (0.6, 0.12), (0.12, 0.12), (0.12, 0.8), (0, 0.8)], -0.1, 0.1)
 
 
-def torus():
-    ring, radius, n, m = 0.3, 0.1, 32, 16
+def torus(ring=0.3, radius=0.1, n=32, m=16):
     mesh = Mesh()
     for i in range(n):
         for j in range(m):

@@ -1,14 +1,14 @@
-// Invariant: the certificate calls a mesh solid exactly if it bounds a solid, says what is wrong if it
-// does not, and names a remedy that works; nothing is repaired unless repair is asked to.
+// Invariant: the certificate calls a mesh solid exactly if it bounds a solid, says what is wrong if
+// it does not, and names a remedy that works; nothing is repaired unless repair is asked to.
 #include "plumb/assets/certificate.h"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "plumb/assets/mass.h"
 #include "plumb/assets/repair.h"
@@ -20,9 +20,11 @@ namespace {
 using namespace assets;
 
 bool has_fault(const MeshCertificate& certificate, const std::string& words) {
-  return std::any_of(certificate.findings.begin(), certificate.findings.end(), [&](const Finding& finding) {
-    return finding.kind == Finding::Kind::Fault && finding.text.find(words) != std::string::npos;
-  });
+  return std::any_of(certificate.findings.begin(), certificate.findings.end(),
+                     [&](const Finding& finding) {
+                       return finding.kind == Finding::Kind::Fault &&
+                              finding.text.find(words) != std::string::npos;
+                     });
 }
 
 void expect_solid_refuses(const TriangleMesh& mesh) {
@@ -61,9 +63,11 @@ TEST(Certificate, TurnedMeshesStayClean) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int trial = 0; trial < 20; ++trial) {
-    const Eigen::Quaterniond turn = Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
     const Vector3d offset = 1000 * Vector3d(any(random), any(random), any(random));
-    for (TriangleMesh mesh : {l_beam_mesh(0.6, 0.12, 0.15, 0.8, 0.2), torus_mesh(1, 0.3, 8), cylinder_mesh(1, 0.01, 12)}) {
+    for (TriangleMesh mesh : {l_beam_mesh(0.6, 0.12, 0.15, 0.8, 0.2), torus_mesh(1, 0.3, 8),
+                              cylinder_mesh(1, 0.01, 12)}) {
       for (Vector3d& v : mesh.vertices) v = turn * v + offset;
       const MeshCertificate c = certify(mesh);
       EXPECT_TRUE(c.solid) << mesh.name << ": " << c.fault_text();
@@ -140,7 +144,8 @@ TEST(BadMesh, DuplicateVerticesCountAsOnePlace) {
 }
 
 TEST(BadMesh, NotANumberIsAFault) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     TriangleMesh mesh = box_mesh({1, 1, 1});
     mesh.vertices[5].y() = bad;
     const MeshCertificate c = certify(mesh);
@@ -192,7 +197,8 @@ TEST(BadMesh, InsideOutIsAFaultThatRepairTurns) {
 
 TEST(BadMesh, DisagreeingFacesAreAFaultThatRepairTurns) {
   TriangleMesh mesh = sphere_mesh(1, 8);
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
+    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
   const MeshCertificate c = certify(mesh);
   EXPECT_TRUE(c.closed);
   EXPECT_FALSE(c.consistently_oriented);
@@ -248,7 +254,8 @@ TEST(BadMesh, SelfCrossingIsAFault) {
 // One surface that runs through itself: the Lawson-like figure of eight, swept round.
 TEST(BadMesh, FigureOfEightCrossesItself) {
   TriangleMesh mesh = sphere_mesh(1, 16);
-  for (Vector3d& v : mesh.vertices) v.x() += 1.4 * v.y() * v.y() * (v.x() > 0 ? -1 : 1) * std::abs(v.x());
+  for (Vector3d& v : mesh.vertices)
+    v.x() += 1.4 * v.y() * v.y() * (v.x() > 0 ? -1 : 1) * std::abs(v.x());
   const MeshCertificate c = certify(mesh);
   EXPECT_TRUE(c.closed);
   EXPECT_EQ(c.embedding, Embedding::Crossing);
@@ -258,7 +265,8 @@ TEST(BadMesh, FigureOfEightCrossesItself) {
 // Boxes on a grid cross without any edge running through the inside of a face; the winding number
 // still sees the overlap.
 TEST(BadMesh, OverlapOfAlignedBoxesIsAFault) {
-  for (const Vector3d& offset : {Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 0, 0.5), Vector3d(1, 1, 1)}) {
+  for (const Vector3d& offset :
+       {Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 0, 0.5), Vector3d(1, 1, 1)}) {
     TriangleMesh mesh = box_mesh({1, 1, 1});
     join(mesh, box_mesh({1, 1, 1}, offset));
     const MeshCertificate c = certify(mesh);
@@ -274,7 +282,8 @@ TEST(BadMesh, BodyInsideABodyIsAFault) {
   EXPECT_EQ(c.embedding, Embedding::Clean);
   EXPECT_EQ(c.winding_max, 2);
   EXPECT_TRUE(has_fault(c, "contain each other"));
-  const Result<Repaired> repaired = repair(mesh, {.orient = true});  // named as making a cavity of it
+  const Result<Repaired> repaired =
+      repair(mesh, {.orient = true});  // named as making a cavity of it
   ASSERT_TRUE(repaired.ok());
   EXPECT_EQ(certify(repaired->mesh).cavities, 1u);
 }
@@ -298,7 +307,8 @@ TEST(BadMesh, MoebiusStripIsNotOrientable) {
     const double angle = 2 * kPi * k / n;
     for (const double side : {-0.3, 0.3}) {
       const double r = 1 + side * std::cos(angle / 2);
-      mesh.vertices.emplace_back(r * std::cos(angle), side * std::sin(angle / 2), r * std::sin(angle));
+      mesh.vertices.emplace_back(r * std::cos(angle), side * std::sin(angle / 2),
+                                 r * std::sin(angle));
     }
   }
   for (std::uint32_t k = 0; k < n; ++k) {

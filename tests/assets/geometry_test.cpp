@@ -1,10 +1,10 @@
-// Invariant: the exact predicates give the sign of the exact determinant, and the self-crossing test
-// built on them agrees with a test of all pairs.
+// Invariant: the exact predicates give the sign of the exact determinant, and the self-crossing
+// test built on them agrees with a test of all pairs.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <optional>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "geometry/exact_predicates.h"
 #include "geometry/triangle_bvh.h"
@@ -45,12 +45,15 @@ TEST(ExactPredicates, AgreeWithIntegerArithmetic) {
     zeros += wanted == 0 ? 1 : 0;
     ASSERT_EQ(orientation_3d(v[0], v[1], v[2], v[3]), wanted);
     const std::int64_t flat = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    ASSERT_EQ(orientation_2d(v[0].head<2>(), v[1].head<2>(), v[2].head<2>()), flat > 0 ? 1 : flat < 0 ? -1 : 0);
+    ASSERT_EQ(orientation_2d(v[0].head<2>(), v[1].head<2>(), v[2].head<2>()), flat > 0   ? 1
+                                                                              : flat < 0 ? -1
+                                                                                         : 0);
   }
   EXPECT_GT(zeros, 500);
 }
 
-// A point moved off a plane by one unit in the last place is seen on its side, where plain doubles fail.
+// A point moved off a plane by one unit in the last place is seen on its side, where plain doubles
+// fail.
 TEST(ExactPredicates, SeeTheLastBit) {
   const Vector3d a(12, 12, 12), b(24, 24, 24.5), c(0.1, 0.7, 0.3);
   const Vector3d middle = 0.5 * a + 0.5 * b;  // exact
@@ -64,7 +67,8 @@ TEST(ExactPredicates, SeeTheLastBit) {
   }
 }
 
-PairRelation relation(const std::vector<Vector3d>& places, const Triangle& first, const Triangle& second) {
+PairRelation relation(const std::vector<Vector3d>& places, const Triangle& first,
+                      const Triangle& second) {
   std::optional<Vector3d> contact;
   return relation_of(places, first, second, contact);
 }
@@ -80,7 +84,8 @@ TEST(TrianglePair, RelationIsSymmetric) {
     if (assets::bounds_of({places, {{0, 1, 2}, {3, 4, 5}}, "", 0}).diagonal() == 0) continue;
     const auto area = [&](int i, int j, int k) {
       return (places[static_cast<std::size_t>(j)] - places[static_cast<std::size_t>(i)])
-          .cross(places[static_cast<std::size_t>(k)] - places[static_cast<std::size_t>(i)]).norm();
+          .cross(places[static_cast<std::size_t>(k)] - places[static_cast<std::size_t>(i)])
+          .norm();
     };
     if (area(0, 1, 2) == 0 || area(3, 4, 5) == 0) continue;
     bool distinct = true;
@@ -106,7 +111,8 @@ TEST(TriangleBvh, VisitsEveryOverlappingPairOnce) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t k = 0; k < 300; ++k) {
     const Vector3d at(any(random), any(random), any(random));
-    for (int i = 0; i < 3; ++i) mesh.vertices.push_back(at + 0.1 * Vector3d(any(random), any(random), any(random)));
+    for (int i = 0; i < 3; ++i)
+      mesh.vertices.push_back(at + 0.1 * Vector3d(any(random), any(random), any(random)));
     mesh.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
     all.push_back(k);
   }
@@ -122,7 +128,8 @@ TEST(TriangleBvh, VisitsEveryOverlappingPairOnce) {
     return true;
   });
   for (std::uint32_t a = 0; a < 300; ++a) {
-    for (std::uint32_t b = a + 1; b < 300; ++b) ASSERT_EQ(seen[a][b], box(a).intersects(box(b)) ? 1 : 0);
+    for (std::uint32_t b = a + 1; b < 300; ++b)
+      ASSERT_EQ(seen[a][b], box(a).intersects(box(b)) ? 1 : 0);
   }
 }
 

@@ -1,14 +1,14 @@
-// Invariant: a hull is closed, convex, outward and holds every point it was made from to the distance
-// it reports; points that make no body are refused with a reason.
+// Invariant: a hull is closed, convex, outward and holds every point it was made from to the
+// distance it reports; points that make no body are refused with a reason.
 #include "plumb/assets/hull.h"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/mass.h"
@@ -50,10 +50,10 @@ void expect_hull(const HullMesh& hull, const std::vector<Vector3d>& points, doub
 
 TEST(ConvexHull, BoxHasSixSquares) {
   std::vector<Vector3d> points = box_mesh({1, 2, 3}, {10, 0, -5}).vertices;
-  points.push_back({10, 0, -5});       // inside
-  points.push_back({11, 0.3, -4.1});   // on a face
-  points.push_back({11, 2, -4});       // on an edge
-  points.push_back(points.front());    // twice
+  points.push_back({10, 0, -5});      // inside
+  points.push_back({11, 0.3, -4.1});  // on a face
+  points.push_back({11, 2, -4});      // on an edge
+  points.push_back(points.front());   // twice
   const Result<HullMesh> hull = convex_hull(points);
   ASSERT_TRUE(hull.ok()) << hull.error();
   EXPECT_EQ(hull->vertices.size(), 8u);
@@ -67,14 +67,17 @@ TEST(ConvexHull, FacesOfFloatCoordinatesAreMerged) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int trial = 0; trial < 30; ++trial) {
-    const Eigen::Quaterniond turn = Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
     std::vector<Vector3d> points;
-    for (const Vector3d& v : cylinder_mesh(1, 0.5, 8).vertices) points.push_back((turn * v).cast<float>().cast<double>());
+    for (const Vector3d& v : cylinder_mesh(1, 0.5, 8).vertices)
+      points.push_back((turn * v).cast<float>().cast<double>());
     const Result<HullMesh> hull = convex_hull(points);
     ASSERT_TRUE(hull.ok()) << hull.error();
     EXPECT_EQ(hull->vertices.size(), 32u);
     EXPECT_EQ(hull->faces.size(), 18u);
-    expect_hull(*hull, points, 5e-6);  // the merge width for a body of size 2, with its second round
+    expect_hull(*hull, points,
+                5e-6);  // the merge width for a body of size 2, with its second round
     EXPECT_LE(hull->max_outside, 5e-6);
   }
 }
@@ -111,20 +114,26 @@ TEST(ConvexHull, SimplificationReportsItsError) {
     EXPECT_NEAR(hull->simplification_volume_loss, 1 - volume / full_volume, 1e-9);
   }
   // 64 points on a sphere: caps of half-angle about 2 / sqrt(64), so a sagitta near 1/32 to 1/12.
-  EXPECT_LT(convex_hull(points, {.max_vertices = kColliderHullVertices})->simplification_distance, 0.1);
+  EXPECT_LT(convex_hull(points, {.max_vertices = kColliderHullVertices})->simplification_distance,
+            0.1);
 }
 
 TEST(ConvexHull, PointsWithoutABodyAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto error_of = [](const std::vector<Vector3d>& points) { return convex_hull(points).error(); };
+  const auto error_of = [](const std::vector<Vector3d>& points) {
+    return convex_hull(points).error();
+  };
   EXPECT_NE(error_of({}).find("0 points"), std::string::npos);
   EXPECT_NE(error_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).find("3 points"), std::string::npos);
-  EXPECT_NE(error_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, nan}}).find("point 3"), std::string::npos);
+  EXPECT_NE(error_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, nan}}).find("point 3"),
+            std::string::npos);
   EXPECT_NE(error_of(std::vector<Vector3d>(5, {1, 2, 3})).find("one place"), std::string::npos);
-  EXPECT_NE(error_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}).find("one line"), std::string::npos);
+  EXPECT_NE(error_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}).find("one line"),
+            std::string::npos);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
   std::vector<Vector3d> flat;
-  for (const Vector3d& p : random_points(50, 11, false)) flat.push_back(turn * Vector3d(p.x(), p.y(), 0));
+  for (const Vector3d& p : random_points(50, 11, false))
+    flat.push_back(turn * Vector3d(p.x(), p.y(), 0));
   EXPECT_NE(error_of(flat).find("one plane"), std::string::npos);
   EXPECT_FALSE(convex_hull(random_points(10, 12, true), {.max_vertices = 3}).ok());
   EXPECT_FALSE(convex_hull(random_points(10, 12, true), {.coplanar_tolerance = nan}).ok());
@@ -138,7 +147,8 @@ TEST(ConvexHull, ThinPlateStaysABody) {
 }
 
 TEST(ToPhysics, HullsAndMassesAreAccepted) {
-  for (const TriangleMesh& mesh : {box_mesh({0.5, 0.2, 0.1}), sphere_mesh(0.4, 12), l_beam_mesh(0.6, 0.12, 0.15, 0.8, 0.2)}) {
+  for (const TriangleMesh& mesh :
+       {box_mesh({0.5, 0.2, 0.1}), sphere_mesh(0.4, 12), l_beam_mesh(0.6, 0.12, 0.15, 0.8, 0.2)}) {
     const Result<MeshMass> mass = mass_of_mesh(mesh, {.density = 700});
     ASSERT_TRUE(mass.ok()) << mass.error();
     const Result<MassProperties> properties = to_physics(*mass);
@@ -146,7 +156,8 @@ TEST(ToPhysics, HullsAndMassesAreAccepted) {
     EXPECT_EQ(properties->mass, mass->mass);
     EXPECT_EQ(properties->I_Bcm_B, mass->I_Bcm_B);
 
-    const Result<HullMesh> hull = convex_hull(mesh.vertices, {.max_vertices = kColliderHullVertices});
+    const Result<HullMesh> hull =
+        convex_hull(mesh.vertices, {.max_vertices = kColliderHullVertices});
     ASSERT_TRUE(hull.ok()) << hull.error();
     const auto geometry = to_physics(*hull, mass->center);
     ASSERT_TRUE(geometry.ok()) << geometry.error();

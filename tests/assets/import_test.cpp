@@ -3,12 +3,12 @@
 // that names it.
 #include "plumb/assets/import.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-
-#include <gtest/gtest.h>
 
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/report.h"
@@ -24,7 +24,8 @@ class ImportTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("plumb_import_") + info->name());
+    folder_ =
+        std::filesystem::path(testing::TempDir()) / (std::string("plumb_import_") + info->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -55,8 +56,10 @@ void expect_box(const Imported& imported, const Vector3d& lower, const Vector3d&
   // Coordinates come through floats.
   const double rounding = 2 * imported.report.coordinate_rounding + 1e-15;
   EXPECT_GT(imported.report.coordinate_rounding, 0);
-  EXPECT_LE((certificate.bounds.lower - lower).cwiseAbs().maxCoeff(), rounding) << certificate.bounds.lower.transpose();
-  EXPECT_LE((certificate.bounds.upper - upper).cwiseAbs().maxCoeff(), rounding) << certificate.bounds.upper.transpose();
+  EXPECT_LE((certificate.bounds.lower - lower).cwiseAbs().maxCoeff(), rounding)
+      << certificate.bounds.lower.transpose();
+  EXPECT_LE((certificate.bounds.upper - upper).cwiseAbs().maxCoeff(), rounding)
+      << certificate.bounds.upper.transpose();
 }
 
 TEST_F(ImportTest, ObjHasNoUnitAndSaysSo) {
@@ -102,7 +105,8 @@ std::string collada_box(const std::string& unit, const std::string& up, const st
 }
 
 TEST_F(ImportTest, ColladaUnitAndAxisAreHonoured) {
-  const std::string path = write("box.dae", collada_box("0.01", "Z_UP", "<translate>10 0 0</translate>"));
+  const std::string path =
+      write("box.dae", collada_box("0.01", "Z_UP", "<translate>10 0 0</translate>"));
   const Imported imported = must(import_mesh(path));
   expect_box(imported, {0.1, 0, -0.02}, {0.11, 0.03, 0});
   EXPECT_EQ(imported.report.metres_per_unit, 0.01);
@@ -113,14 +117,16 @@ TEST_F(ImportTest, ColladaUnitAndAxisAreHonoured) {
 }
 
 TEST_F(ImportTest, MirroredNodesAreTurnedRightSideOut) {
-  const Imported imported = must(import_mesh(write("box.dae", collada_box("1", "Y_UP", "<scale>-1 1 1</scale>"))));
+  const Imported imported =
+      must(import_mesh(write("box.dae", collada_box("1", "Y_UP", "<scale>-1 1 1</scale>"))));
   expect_box(imported, {-1, 0, 0}, {0, 2, 3});
   EXPECT_EQ(imported.report.mirrored_parts, 1u);
 }
 
 TEST_F(ImportTest, EveryInstanceIsAPart) {
   std::string text = collada_box("1", "Y_UP", "");
-  const std::string second = R"(</node><node id="m"><translate>5 0 0</translate><instance_geometry url="#g"/></node>)";
+  const std::string second =
+      R"(</node><node id="m"><translate>5 0 0</translate><instance_geometry url="#g"/></node>)";
   text.replace(text.find("</node>"), 7, second);
   const Imported imported = must(import_mesh(write("two.dae", text)));
   EXPECT_EQ(imported.report.parts, 2u);
@@ -129,13 +135,17 @@ TEST_F(ImportTest, EveryInstanceIsAPart) {
 }
 
 std::string fbx_box(double unit, int up, int up_sign, int front, int front_sign) {
-  const auto setting = [](const std::string& name, const std::string& type, const std::string& value) {
+  const auto setting = [](const std::string& name, const std::string& type,
+                          const std::string& value) {
     return "P: \"" + name + "\", \"" + type + "\", \"\", \"\"," + value + "\n";
   };
-  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n"
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXHeaderVersion: 1003\nFBXVersion: "
+         "7400\n}\n"
          "GlobalSettings: {\nVersion: 1000\nProperties70: {\n" +
-         setting("UpAxis", "int", std::to_string(up)) + setting("UpAxisSign", "int", std::to_string(up_sign)) +
-         setting("FrontAxis", "int", std::to_string(front)) + setting("FrontAxisSign", "int", std::to_string(front_sign)) +
+         setting("UpAxis", "int", std::to_string(up)) +
+         setting("UpAxisSign", "int", std::to_string(up_sign)) +
+         setting("FrontAxis", "int", std::to_string(front)) +
+         setting("FrontAxisSign", "int", std::to_string(front_sign)) +
          setting("CoordAxis", "int", "0") + setting("CoordAxisSign", "int", "1") +
          setting("UnitScaleFactor", "double", std::to_string(unit)) + "}\n}\n" +
          "Objects: {\nGeometry: 100, \"Geometry::box\", \"Mesh\" {\n"
@@ -169,10 +179,14 @@ TEST_F(ImportTest, FbxUnitAndAxesAreHonoured) {
 
 TEST_F(ImportTest, FilesThatAreNoMeshesAreErrorsThatNameThem) {
   const std::vector<std::string> paths{
-      write("empty.obj", ""),           write("text.obj", "this is no mesh\n"),
-      write("broken.dae", "<COLLADA"),  write("short.stl", std::string(83, 'x')),
-      write("points.obj", "v 0 0 0\n"), write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"),
-      write("what.xyz", "1 2 3\n"),     "no_such_file.obj",
+      write("empty.obj", ""),
+      write("text.obj", "this is no mesh\n"),
+      write("broken.dae", "<COLLADA"),
+      write("short.stl", std::string(83, 'x')),
+      write("points.obj", "v 0 0 0\n"),
+      write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"),
+      write("what.xyz", "1 2 3\n"),
+      "no_such_file.obj",
       testing::TempDir()};
   for (const std::string& path : paths) {
     const Result<Imported> imported = import_mesh(path);
@@ -185,8 +199,10 @@ TEST_F(ImportTest, FilesThatAreNoMeshesAreErrorsThatNameThem) {
 
 TEST_F(ImportTest, LimitsAreKept) {
   const std::string path = write("box.obj", obj_box());
-  EXPECT_NE(import_mesh(path, {.max_triangles = 11}).error().find("max_triangles"), std::string::npos);
-  EXPECT_NE(import_mesh(path, {.max_file_bytes = 10}).error().find("max_file_bytes"), std::string::npos);
+  EXPECT_NE(import_mesh(path, {.max_triangles = 11}).error().find("max_triangles"),
+            std::string::npos);
+  EXPECT_NE(import_mesh(path, {.max_file_bytes = 10}).error().find("max_file_bytes"),
+            std::string::npos);
   EXPECT_TRUE(import_mesh(path, {.max_triangles = 12}).ok());
 }
 
@@ -213,11 +229,13 @@ TEST_F(ImportTest, ReportsArePrinted) {
   const Result<MeshInspection> inspection = inspect_mesh_file(path);
   ASSERT_TRUE(inspection.ok()) << inspection.error();
   const std::string text = to_text(*inspection);
-  for (const char* word : {"certificate: SOLID", "mass: method solid", "6000 kg", "convex hull", "closed", "genus"}) {
+  for (const char* word :
+       {"certificate: SOLID", "mass: method solid", "6000 kg", "convex hull", "closed", "genus"}) {
     EXPECT_NE(text.find(word), std::string::npos) << word << '\n' << text;
   }
   const std::string json = to_json(*inspection);
-  for (const char* word : {"\"schema\": \"plumb-mesh/1\"", "\"solid\": true", "\"method\": \"solid\""}) {
+  for (const char* word :
+       {"\"schema\": \"plumb-mesh/1\"", "\"solid\": true", "\"method\": \"solid\""}) {
     EXPECT_NE(json.find(word), std::string::npos) << word << '\n' << json;
   }
 }

@@ -1,14 +1,15 @@
 // Invariant: the mass properties of a polyhedron are exact to rounding wherever it stands, those of
-// curved bodies converge to the closed forms with order 2, and no method is ever swapped for another.
+// curved bodies converge to the closed forms with order 2, and no method is ever swapped for
+// another.
 #include "plumb/assets/mass.h"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
-
-#include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "sample_meshes.h"
 
@@ -26,13 +27,18 @@ MeshMass must(const TriangleMesh& mesh, MassOptions options = {.density = 1}) {
 }
 
 double relative(double value, double wanted) { return std::abs(value - wanted) / std::abs(wanted); }
-double relative(const Matrix3d& value, const Matrix3d& wanted) { return (value - wanted).norm() / wanted.norm(); }
+double relative(const Matrix3d& value, const Matrix3d& wanted) {
+  return (value - wanted).norm() / wanted.norm();
+}
 
-Matrix3d inertia_from_second(const Matrix3d& second) { return second.trace() * Matrix3d::Identity() - second; }
+Matrix3d inertia_from_second(const Matrix3d& second) {
+  return second.trace() * Matrix3d::Identity() - second;
+}
 
 // --- Tonon's tetrahedron [Tonon 2004] ----------------------------------------------------------
 
-const std::array<Vector3d, 4> kTonon{Vector3d(8.33220, -11.86875, 0.93355), Vector3d(0.75523, 5, 16.37072),
+const std::array<Vector3d, 4> kTonon{Vector3d(8.33220, -11.86875, 0.93355),
+                                     Vector3d(0.75523, 5, 16.37072),
                                      Vector3d(52.61236, 5, -5.38580), Vector3d(2, 5, 3)};
 
 TriangleMesh tonon_mesh() { return tetrahedron_mesh(kTonon[0], kTonon[1], kTonon[2], kTonon[3]); }
@@ -41,7 +47,8 @@ TEST(TononTetrahedron, MatchesThePublishedDigits) {
   const MeshMass mass = must(tonon_mesh());
   // Half a unit in the last digit printed.
   EXPECT_NEAR(mass.volume, 1873.233364216, 5e-10);
-  EXPECT_NEAR((mass.center - Vector3d(15.9249475, 0.7828125, 3.7296175)).cwiseAbs().maxCoeff(), 0, 5e-8);
+  EXPECT_NEAR((mass.center - Vector3d(15.9249475, 0.7828125, 3.7296175)).cwiseAbs().maxCoeff(), 0,
+              5e-8);
   const Matrix3d& I = mass.I_Bcm_B;
   EXPECT_NEAR(I(0, 0), 43520.33329, 5e-6);
   EXPECT_NEAR(I(1, 1), 194711.29259, 5e-6);
@@ -61,7 +68,8 @@ TEST(TononTetrahedron, EqualsTheCornerFormulaTo1e12) {
   const LongVector center = (v[0] + v[1] + v[2] + v[3]) / 4;
   const long double volume = std::abs((v[1] - v[0]).cross(v[2] - v[0]).dot(v[3] - v[0])) / 6;
   LongMatrix second = LongMatrix::Zero();
-  for (const LongVector& corner : v) second += volume / 20 * (corner - center) * (corner - center).transpose();
+  for (const LongVector& corner : v)
+    second += volume / 20 * (corner - center) * (corner - center).transpose();
 
   const MeshMass mass = must(tonon_mesh());
   EXPECT_LE(relative(mass.volume, static_cast<double>(volume)), 1e-12);
@@ -73,7 +81,8 @@ TEST(TononTetrahedron, EqualsTheCornerFormulaTo1e12) {
 TEST(TononTetrahedron, Keeps1e9WhenMovedByTenThousandSizes) {
   const MeshMass here = must(tonon_mesh());
   const double size = bounds_of(tonon_mesh()).diagonal();
-  for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(-1, 1, 1), Vector3d(0.3, -2, 0.7)}) {
+  for (const Vector3d& direction :
+       {Vector3d(1, 0, 0), Vector3d(-1, 1, 1), Vector3d(0.3, -2, 0.7)}) {
     const Vector3d offset = 1e4 * size * direction;
     const MeshMass there = must(translated(tonon_mesh(), offset));
     EXPECT_LE(relative(there.volume, here.volume), 1e-9);
@@ -97,7 +106,8 @@ TEST(PolyhedronMass, BoxHasItsClosedForm) {
   const Vector3d s = half.cwiseProduct(half) / 3;
   const Matrix3d wanted = (m * Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y())).asDiagonal();
   EXPECT_LE(relative(mass.I_Bcm_B, wanted), 1e-14);
-  EXPECT_EQ(mass.R_BP.cwiseAbs().sum(), 3);  // three entries of +-1: no noise spins the axes of a box
+  EXPECT_EQ(mass.R_BP.cwiseAbs().sum(),
+            3);  // three entries of +-1: no noise spins the axes of a box
 }
 
 TEST(PolyhedronMass, LBeamIsTheSumOfItsTwoBoxes) {
@@ -124,10 +134,12 @@ TEST(PolyhedronMass, LBeamIsTheSumOfItsTwoBoxes) {
   EXPECT_LE(relative(mass.volume, volume), 1e-14);
   EXPECT_LE((mass.center - center).norm(), 1e-15);
   EXPECT_LE(relative(mass.I_Bcm_B, inertia_from_second(second)), 1e-13);
-  EXPECT_GT(std::abs(mass.I_Bcm_B(0, 1)), 0.1 * mass.I_Bcm_B(0, 0));  // products of inertia are there
+  EXPECT_GT(std::abs(mass.I_Bcm_B(0, 1)),
+            0.1 * mass.I_Bcm_B(0, 0));  // products of inertia are there
   // The axes returned diagonalise the tensor and are a rotation.
   const Matrix3d diagonal = mass.R_BP.transpose() * mass.I_Bcm_B * mass.R_BP;
-  EXPECT_LE((diagonal - Matrix3d(mass.principal_moments.asDiagonal())).norm() / diagonal.norm(), 1e-14);
+  EXPECT_LE((diagonal - Matrix3d(mass.principal_moments.asDiagonal())).norm() / diagonal.norm(),
+            1e-14);
   EXPECT_NEAR(mass.R_BP.determinant(), 1, 1e-14);
 }
 
@@ -143,7 +155,8 @@ TEST(PolyhedronMass, CavityIsTakenOff) {
   const double V = 8 * outer.prod(), v = 8 * inner.prod();
   const Vector3d center = -v * at / (V - v);
   Matrix3d second = V * Matrix3d((outer.cwiseProduct(outer) / 3).asDiagonal()) -
-                    v * Matrix3d((inner.cwiseProduct(inner) / 3).asDiagonal()) - v * at * at.transpose();
+                    v * Matrix3d((inner.cwiseProduct(inner) / 3).asDiagonal()) -
+                    v * at * at.transpose();
   second -= (V - v) * center * center.transpose();
   const MeshMass mass = must(mesh);
   EXPECT_LE(relative(mass.volume, V - v), 1e-14);
@@ -179,14 +192,20 @@ std::vector<CurvedCase> curved_cases() {
   return {
       {"sphere", [=](std::uint32_t n) { return sphere_mesh(r, n); }, sphere, Vector3d::Zero(),
        Vector3d::Constant(0.4 * sphere * r * r)},
-      {"ellipsoid", [=](std::uint32_t n) { return ellipsoid_mesh(e, n); }, ellipsoid, Vector3d::Zero(),
-       ellipsoid / 5 * Vector3d(e.y() * e.y() + e.z() * e.z(), e.x() * e.x() + e.z() * e.z(), e.x() * e.x() + e.y() * e.y())},
-      {"cylinder", [=](std::uint32_t n) { return cylinder_mesh(r, h, n); }, cylinder, Vector3d::Zero(),
+      {"ellipsoid", [=](std::uint32_t n) { return ellipsoid_mesh(e, n); }, ellipsoid,
+       Vector3d::Zero(),
+       ellipsoid / 5 *
+           Vector3d(e.y() * e.y() + e.z() * e.z(), e.x() * e.x() + e.z() * e.z(),
+                    e.x() * e.x() + e.y() * e.y())},
+      {"cylinder", [=](std::uint32_t n) { return cylinder_mesh(r, h, n); }, cylinder,
+       Vector3d::Zero(),
        cylinder * Vector3d(r * r / 4 + h * h / 12, r * r / 2, r * r / 4 + h * h / 12)},
       {"cone", [=](std::uint32_t n) { return cone_mesh(r, h, n); }, cone, Vector3d(0, h / 4, 0),
-       cone * Vector3d(3 * r * r / 20 + 3 * h * h / 80, 3 * r * r / 10, 3 * r * r / 20 + 3 * h * h / 80)},
+       cone * Vector3d(3 * r * r / 20 + 3 * h * h / 80, 3 * r * r / 10,
+                       3 * r * r / 20 + 3 * h * h / 80)},
       {"torus", [=](std::uint32_t n) { return torus_mesh(R, a, n); }, torus, Vector3d::Zero(),
-       torus * Vector3d(5 * a * a / 8 + R * R / 2, 3 * a * a / 4 + R * R, 5 * a * a / 8 + R * R / 2)},
+       torus *
+           Vector3d(5 * a * a / 8 + R * R / 2, 3 * a * a / 4 + R * R, 5 * a * a / 8 + R * R / 2)},
       {"hollow sphere",
        [=](std::uint32_t n) {
          TriangleMesh mesh = sphere_mesh(r, n);
@@ -206,8 +225,9 @@ TEST_P(CurvedBody, ConvergesWithOrderTwo) {
     const double volume = relative(mass.volume, body.volume);
     const double inertia = (mass.I_Bcm_B.diagonal() - body.moments).norm() / body.moments.norm();
     EXPECT_LE((mass.center - body.center).norm(), 1e-13);
-    EXPECT_LE(std::abs(mass.I_Bcm_B(0, 1)) + std::abs(mass.I_Bcm_B(0, 2)) + std::abs(mass.I_Bcm_B(1, 2)),
-              1e-13 * mass.I_Bcm_B.trace());
+    EXPECT_LE(
+        std::abs(mass.I_Bcm_B(0, 1)) + std::abs(mass.I_Bcm_B(0, 2)) + std::abs(mass.I_Bcm_B(1, 2)),
+        1e-13 * mass.I_Bcm_B.trace());
     if (last_volume > 0) {
       // Halving the facets divides the error by 4; from n = 8 on the next term is below 4 percent
       // of the order.
@@ -237,8 +257,10 @@ TEST(MassMethods, SolidOfAnOpenMeshIsAnErrorThatNamesTheRemedy) {
 
 TEST(MassMethods, ShellOfASphereTendsToTheThinSphere) {
   const double r = 0.5, t = 0.002;
-  const MeshMass mass = must(sphere_mesh(r, 96), {.method = MassMethod::Shell, .density = 100, .shell_thickness = t});
-  // The thick-walled sphere from r - t/2 to r + t/2; facets of n = 96 cost about pi^2/(3 n^2) = 4e-4.
+  const MeshMass mass =
+      must(sphere_mesh(r, 96), {.method = MassMethod::Shell, .density = 100, .shell_thickness = t});
+  // The thick-walled sphere from r - t/2 to r + t/2; facets of n = 96 cost about pi^2/(3 n^2) =
+  // 4e-4.
   const auto power = [](double x, int n) { return std::pow(x, n); };
   const double outer = r + t / 2, inner = r - t / 2;
   const double m = 100 * 4 * kPi / 3 * (power(outer, 3) - power(inner, 3));
@@ -255,7 +277,8 @@ TEST(MassMethods, ShellOfAPlateIsABox) {
   plate.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 0, 1}, {0, 0, 1}};
   plate.triangles = {{0, 2, 1}, {0, 3, 2}};
   const double t = 0.1;
-  const MeshMass mass = must(plate, {.method = MassMethod::Shell, .density = 5, .shell_thickness = t});
+  const MeshMass mass =
+      must(plate, {.method = MassMethod::Shell, .density = 5, .shell_thickness = t});
   const double m = 5 * 2 * t;
   EXPECT_LE(relative(mass.mass, m), 1e-14);
   const Vector3d wanted = m / 12 * Vector3d(t * t + 1, 4 + 1, 4 + t * t);
@@ -265,19 +288,22 @@ TEST(MassMethods, ShellOfAPlateIsABox) {
 
 TEST(MassMethods, HullFillsTheNotch) {
   // The hull of the L: its rectangle less the triangle between foot and leg.
-  const MeshMass mass = must(l_beam_mesh(4, 1, 1, 3, 2), {.method = MassMethod::Hull, .density = 1});
+  const MeshMass mass =
+      must(l_beam_mesh(4, 1, 1, 3, 2), {.method = MassMethod::Hull, .density = 1});
   EXPECT_LE(relative(mass.volume, 2 * (12 - 0.5 * 3 * 2)), 1e-12);
 }
 
 TEST(MassMethods, VoxelHoldsItsErrorBoundOnAnOpenBox) {
-  TriangleMesh crate = box_mesh({0.5, 0.5, 0.5});  // with a small hole: one corner of a face missing
+  TriangleMesh crate =
+      box_mesh({0.5, 0.5, 0.5});  // with a small hole: one corner of a face missing
   crate.vertices.push_back({0.5, 0.45, 0.45});
   const Triangle cut = crate.triangles.back();  // corners 1, 7, 5 on the side x = 0.5
   crate.triangles.back() = {cut[0], cut[1], 8};
   crate.triangles.push_back({cut[0], 8, cut[2]});
   const MeshMass mass = must(crate, {.method = MassMethod::Voxel, .density = 1});
   EXPECT_FALSE(certify(crate).closed);
-  EXPECT_NEAR(mass.volume, 1, mass.error.volume + 0.01);  // the hole lets 1 percent of the volume go
+  EXPECT_NEAR(mass.volume, 1,
+              mass.error.volume + 0.01);  // the hole lets 1 percent of the volume go
   EXPECT_LE(mass.error.volume, 0.05);
 }
 
@@ -304,7 +330,8 @@ TEST(MassMethods, BadOptionsAreRefused) {
 }
 
 TEST(MassMethods, NamesGoThereAndBack) {
-  for (const MassMethod method : {MassMethod::Solid, MassMethod::Shell, MassMethod::Hull, MassMethod::Voxel}) {
+  for (const MassMethod method :
+       {MassMethod::Solid, MassMethod::Shell, MassMethod::Hull, MassMethod::Voxel}) {
     const Result<MassMethod> back = mass_method_from(name_of(method));
     ASSERT_TRUE(back.ok());
     EXPECT_EQ(*back, method);

@@ -1,12 +1,13 @@
-// Invariant: every model shipped in assets/models is what models.json says: a certified solid of that
-// genus and number of cavities, with that volume and centre of mass, whatever format it comes in.
+// Invariant: every model shipped in assets/models is what models.json says: a certified solid of
+// that genus and number of cavities, with that volume and centre of mass, whatever format it comes
+// in.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <set>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "plumb/assets/hull.h"
 #include "plumb/assets/import.h"
@@ -57,10 +58,13 @@ TEST(Models, AreWhatTheyAreMeantToBe) {
     const double volume = model.at("volume").get<double>();
     EXPECT_LE(std::abs(mass->volume - volume) / volume, mass->error.volume);
     EXPECT_LT(mass->error.volume, 1e-5);
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(mass->center[k], model.at("center")[static_cast<std::size_t>(k)].get<double>(), 1e-6);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(mass->center[k], model.at("center")[static_cast<std::size_t>(k)].get<double>(),
+                  1e-6);
     EXPECT_TRUE(to_physics(*mass).ok());
 
-    const Result<HullMesh> hull = convex_hull(imported->mesh.vertices, {.max_vertices = kColliderHullVertices});
+    const Result<HullMesh> hull =
+        convex_hull(imported->mesh.vertices, {.max_vertices = kColliderHullVertices});
     ASSERT_TRUE(hull.ok()) << hull.error();
     EXPECT_LE(hull->simplification_distance, 0.03 * size);
     const auto geometry = to_physics(*hull, mass->center);
@@ -75,7 +79,8 @@ TEST(Models, AreWhatTheyAreMeantToBe) {
 // way the faces do.
 TEST(Models, CanBeDrawn) {
   for (const auto& model : manifest().at("models")) {
-    const Result<Imported> imported = import_mesh((kFolder / model.at("file").get<std::string>()).string());
+    const Result<Imported> imported =
+        import_mesh((kFolder / model.at("file").get<std::string>()).string());
     ASSERT_TRUE(imported.ok()) << imported.error();
     const Eigen::Vector3d origin(0.1, 0.2, 0.3);
     const VisualMesh visual = visual_mesh(imported->mesh, {.origin = origin});
@@ -89,7 +94,8 @@ TEST(Models, CanBeDrawn) {
         p[i] = {position[0], position[1], position[2]};
         n[i] = {normal[0], normal[1], normal[2]};
         EXPECT_NEAR(n[i].norm(), 1, 1e-6);  // floats
-        EXPECT_LE((p[i] + origin - imported->mesh.vertices[imported->mesh.triangles[t][i]]).norm(), 1e-6);
+        EXPECT_LE((p[i] + origin - imported->mesh.vertices[imported->mesh.triangles[t][i]]).norm(),
+                  1e-6);
       }
       const Eigen::Vector3d face = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
       for (const Eigen::Vector3d& normal : n) EXPECT_GT(normal.dot(face), 0.5);

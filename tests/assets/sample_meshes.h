@@ -21,7 +21,8 @@ inline constexpr double kPi = std::numbers::pi;
 inline void join(TriangleMesh& mesh, const TriangleMesh& other) {
   const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Triangle& t : other.triangles) mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  for (const Triangle& t : other.triangles)
+    mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
 }
 
 inline TriangleMesh flipped(TriangleMesh mesh) {
@@ -43,7 +44,8 @@ inline TriangleMesh box_mesh(const Vector3d& half, const Vector3d& center = Vect
 }
 
 // Four corners, oriented outwards whatever their order.
-inline TriangleMesh tetrahedron_mesh(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+inline TriangleMesh tetrahedron_mesh(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                                     const Vector3d& d) {
   TriangleMesh mesh;
   mesh.name = "tetrahedron";
   mesh.vertices = {a, b, c, d};
@@ -51,8 +53,10 @@ inline TriangleMesh tetrahedron_mesh(const Vector3d& a, const Vector3d& b, const
   return (b - a).cross(c - a).dot(d - a) > 0 ? mesh : flipped(mesh);
 }
 
-// A profile of (radius, height), from the lower pole to the upper, turned about y; poles have radius 0.
-inline TriangleMesh revolution_mesh(const std::vector<std::pair<double, double>>& profile, std::uint32_t segments) {
+// A profile of (radius, height), from the lower pole to the upper, turned about y; poles have
+// radius 0.
+inline TriangleMesh revolution_mesh(const std::vector<std::pair<double, double>>& profile,
+                                    std::uint32_t segments) {
   TriangleMesh mesh;
   mesh.name = "revolution";
   std::vector<std::vector<std::uint32_t>> rows;
@@ -71,8 +75,10 @@ inline TriangleMesh revolution_mesh(const std::vector<std::pair<double, double>>
   for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
     for (std::uint32_t k = 0; k < segments; ++k) {
       const std::uint32_t j = (k + 1) % segments;
-      if (rows[r][k] != rows[r][j]) mesh.triangles.push_back({rows[r][k], rows[r][j], rows[r + 1][j]});
-      if (rows[r + 1][k] != rows[r + 1][j]) mesh.triangles.push_back({rows[r][k], rows[r + 1][j], rows[r + 1][k]});
+      if (rows[r][k] != rows[r][j])
+        mesh.triangles.push_back({rows[r][k], rows[r][j], rows[r + 1][j]});
+      if (rows[r + 1][k] != rows[r + 1][j])
+        mesh.triangles.push_back({rows[r][k], rows[r + 1][j], rows[r + 1][k]});
     }
   }
   return mesh;
@@ -80,7 +86,8 @@ inline TriangleMesh revolution_mesh(const std::vector<std::pair<double, double>>
 
 inline TriangleMesh ellipsoid_mesh(const Vector3d& axes, std::uint32_t n) {
   std::vector<std::pair<double, double>> profile{{0, -1}};
-  for (std::uint32_t k = 1; k < n; ++k) profile.emplace_back(std::sin(kPi * k / n), -std::cos(kPi * k / n));
+  for (std::uint32_t k = 1; k < n; ++k)
+    profile.emplace_back(std::sin(kPi * k / n), -std::cos(kPi * k / n));
   profile.emplace_back(0, 1);
   TriangleMesh mesh = revolution_mesh(profile, 2 * n);
   mesh.name = "ellipsoid";
@@ -95,7 +102,8 @@ inline TriangleMesh sphere_mesh(double radius, std::uint32_t n) {
 }
 
 inline TriangleMesh cylinder_mesh(double radius, double height, std::uint32_t n) {
-  return revolution_mesh({{0, -height / 2}, {radius, -height / 2}, {radius, height / 2}, {0, height / 2}}, 2 * n);
+  return revolution_mesh(
+      {{0, -height / 2}, {radius, -height / 2}, {radius, height / 2}, {0, height / 2}}, 2 * n);
 }
 
 // Base at y = 0, apex at y = height.
@@ -125,13 +133,15 @@ inline TriangleMesh torus_mesh(double ring, double tube, std::uint32_t n) {
   return mesh;
 }
 
-// An L in the x-y plane: a foot of width x height foot_height, a leg of leg_width up to full_height;
-// corner at the origin, drawn out along z from -depth / 2 to depth / 2.
-inline TriangleMesh l_beam_mesh(double width, double foot_height, double leg_width, double full_height, double depth) {
+// An L in the x-y plane: a foot of width x height foot_height, a leg of leg_width up to
+// full_height; corner at the origin, drawn out along z from -depth / 2 to depth / 2.
+inline TriangleMesh l_beam_mesh(double width, double foot_height, double leg_width,
+                                double full_height, double depth) {
   TriangleMesh mesh;
   mesh.name = "l_beam";
   const double w = width, f = foot_height, l = leg_width, h = full_height;
-  const std::vector<std::pair<double, double>> outline{{0, 0}, {w, 0}, {w, f}, {l, f}, {l, h}, {0, h}};
+  const std::vector<std::pair<double, double>> outline{{0, 0}, {w, 0}, {w, f},
+                                                       {l, f}, {l, h}, {0, h}};
   for (const double z : {-depth / 2, depth / 2}) {
     for (const auto& [x, y] : outline) mesh.vertices.emplace_back(x, y, z);
   }

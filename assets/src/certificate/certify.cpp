@@ -1,6 +1,5 @@
-#include "plumb/assets/certificate.h"
-
 #include "certificate/surface.h"
+#include "plumb/assets/certificate.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 
@@ -27,10 +26,14 @@ std::string MeshCertificate::fault_text() const {
 
 const char* name_of(Embedding embedding) {
   switch (embedding) {
-    case Embedding::NotTested: return "not tested";
-    case Embedding::Clean: return "clean";
-    case Embedding::Touching: return "touching";
-    case Embedding::Crossing: return "crossing";
+    case Embedding::NotTested:
+      return "not tested";
+    case Embedding::Clean:
+      return "clean";
+    case Embedding::Touching:
+      return "touching";
+    case Embedding::Crossing:
+      return "crossing";
   }
   return "?";
 }

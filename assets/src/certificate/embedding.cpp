@@ -63,7 +63,8 @@ void find_crossings(const Surface& surface, const std::vector<std::uint32_t>& fa
     if (first == second) return true;  // counted as a duplicate face
     std::optional<Vector3d> contact;
     switch (relation_of(surface.places, surface.faces[a], surface.faces[b], contact)) {
-      case PairRelation::Apart: return true;
+      case PairRelation::Apart:
+        return true;
       case PairRelation::Touching:
         ++certificate.touching_pairs;
         touched[a] = touched[b] = true;
@@ -75,7 +76,8 @@ void find_crossings(const Surface& surface, const std::vector<std::uint32_t>& fa
       case PairRelation::Crossing:
         ++certificate.crossing_pairs;
         if (certificate.crossing_examples.size() < kMaxExamples) {
-          certificate.crossing_examples.push_back({surface.source[std::min(a, b)], surface.source[std::max(a, b)]});
+          certificate.crossing_examples.push_back(
+              {surface.source[std::min(a, b)], surface.source[std::max(a, b)]});
         }
         break;
     }
@@ -94,7 +96,8 @@ void append_evenly(const std::vector<std::uint32_t>& items, std::vector<std::uin
 }
 
 // The largest face of each component first.
-std::vector<std::uint32_t> faces_to_sample(const Surface& surface, const MeshCertificate& certificate,
+std::vector<std::uint32_t> faces_to_sample(const Surface& surface,
+                                           const MeshCertificate& certificate,
                                            const std::vector<std::uint32_t>& faces,
                                            const std::vector<bool>& touched) {
   constexpr std::uint32_t kNone = ~0u;
@@ -108,7 +111,8 @@ std::vector<std::uint32_t> faces_to_sample(const Surface& surface, const MeshCer
     if (f != kNone) chosen.push_back(f);
   }
   append_evenly(touching, chosen);
-  const bool proven = certificate.embedding == Embedding::Clean || certificate.embedding == Embedding::Touching;
+  const bool proven =
+      certificate.embedding == Embedding::Clean || certificate.embedding == Embedding::Touching;
   if (!proven || !certificate.crossing_count_complete) append_evenly(faces, chosen);
   return chosen;
 }
@@ -129,8 +133,10 @@ void sample_winding(const Surface& surface, const std::vector<std::uint32_t>& fa
     const WindingField::Sides sides = field.beside(f, point);
     const int front = static_cast<int>(std::lround(sides.front));
     const int back = static_cast<int>(std::lround(sides.back));
-    certificate.winding_min = first ? std::min(front, back) : std::min({certificate.winding_min, front, back});
-    certificate.winding_max = first ? std::max(front, back) : std::max({certificate.winding_max, front, back});
+    certificate.winding_min =
+        first ? std::min(front, back) : std::min({certificate.winding_min, front, back});
+    certificate.winding_max =
+        first ? std::max(front, back) : std::max({certificate.winding_max, front, back});
     first = false;
     ++certificate.winding_samples;
     const std::uint32_t c = surface.component_of[f];
@@ -141,8 +147,8 @@ void sample_winding(const Surface& surface, const std::vector<std::uint32_t>& fa
   certificate.cavities = static_cast<std::size_t>(
       std::count_if(certificate.component_list.begin(), certificate.component_list.end(),
                     [](const ComponentCertificate& component) { return component.cavity; }));
-  certificate.inside_out =
-      certificate.signed_volume < 0 && certificate.winding_min == -1 && certificate.winding_max == 0;
+  certificate.inside_out = certificate.signed_volume < 0 && certificate.winding_min == -1 &&
+                           certificate.winding_max == 0;
 }
 
 }  // namespace
@@ -156,7 +162,8 @@ void examine_embedding(const Surface& surface, const CertifyOptions& options,
   if (faces.empty()) return;
   std::vector<bool> touched(surface.faces.size(), false);
   std::vector<Sample> samples;
-  if (options.test_self_crossing) find_crossings(surface, faces, options, certificate, touched, samples);
+  if (options.test_self_crossing)
+    find_crossings(surface, faces, options, certificate, touched, samples);
   if (certificate.closed && certificate.consistently_oriented) {
     sample_winding(surface, faces, touched, samples, certificate);
   }

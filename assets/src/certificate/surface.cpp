@@ -1,10 +1,9 @@
 #include "certificate/surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "geometry/triangle_area.h"
 #include "plumb/assets/mesh.h"
@@ -18,7 +17,8 @@ using Eigen::Vector3d;
 std::vector<bool> usable_triangles(const TriangleMesh& mesh, MeshCertificate& certificate) {
   std::vector<bool> used(mesh.vertices.size(), false), usable(mesh.triangles.size(), true);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) usable[t] = usable[t] && v < mesh.vertices.size();
+    for (const std::uint32_t v : mesh.triangles[t])
+      usable[t] = usable[t] && v < mesh.vertices.size();
     if (!usable[t]) {
       ++certificate.out_of_range_triangles;
       continue;
@@ -88,7 +88,8 @@ void examine_components(Surface& surface, const std::vector<bool>& several_fans,
                         MeshCertificate& certificate) {
   UnionFind joined(surface.faces.size());
   for_each_edge(surface.uses, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin + 1; i < end; ++i) joined.join(surface.uses[begin].face, surface.uses[i].face);
+    for (std::size_t i = begin + 1; i < end; ++i)
+      joined.join(surface.uses[begin].face, surface.uses[i].face);
   });
   surface.component_of.resize(surface.faces.size());
   std::vector<ComponentCertificate>& list = certificate.component_list;
@@ -176,8 +177,9 @@ Surface examine_surface(const TriangleMesh& mesh, MeshCertificate& certificate) 
     Triangle face{};
     for (std::size_t i = 0; i < 3; ++i) face[i] = places.place_of[compact[mesh.triangles[t][i]]];
     const bool repeated = face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
-    const double area =
-        repeated ? 0 : area_or_zero(surface.places[face[0]], surface.places[face[1]], surface.places[face[2]]);
+    const double area = repeated ? 0
+                                 : area_or_zero(surface.places[face[0]], surface.places[face[1]],
+                                                surface.places[face[2]]);
     if (area == 0) ++certificate.degenerate_faces;
     if (repeated) continue;  // its sides cancel each other: the surface is the same without it
     surface.faces.push_back(face);
@@ -204,7 +206,8 @@ Surface examine_surface(const TriangleMesh& mesh, MeshCertificate& certificate) 
   certificate.closed = any && all_even;
   certificate.consistently_oriented = any && certificate.inconsistent_edges == 0;
   certificate.orientable = any && consistent_flips(surface.faces.size(), surface.uses).orientable;
-  certificate.manifold = any && certificate.non_manifold_edges == 0 && certificate.non_manifold_vertices == 0;
+  certificate.manifold =
+      any && certificate.non_manifold_edges == 0 && certificate.non_manifold_vertices == 0;
 
   std::vector<bool> in_use(surface.places.size(), false);
   for (const Triangle& face : surface.faces) {

@@ -12,19 +12,19 @@
 namespace plumb::inline PLUMB_ABI::assets::detail {
 
 struct Surface {
-  std::vector<Eigen::Vector3d> places;       // [m]
-  std::vector<Triangle> faces;               // of places; faces with a repeated place are left out
-  std::vector<std::uint32_t> source;         // triangle number in the mesh, of each face
-  std::vector<double> areas;                 // [m^2] of each face, 0 for a degenerate one
+  std::vector<Eigen::Vector3d> places;  // [m]
+  std::vector<Triangle> faces;          // of places; faces with a repeated place are left out
+  std::vector<std::uint32_t> source;    // triangle number in the mesh, of each face
+  std::vector<double> areas;            // [m^2] of each face, 0 for a degenerate one
   std::vector<EdgeUse> uses;
-  std::vector<std::uint32_t> component_of;   // of each face
+  std::vector<std::uint32_t> component_of;  // of each face
 };
 
 // Builds the surface and fills in the counts of the certificate up to the components.
 Surface examine_surface(const TriangleMesh& mesh, MeshCertificate& certificate);
 
-// How the surface lies in space: fills in the crossing counts, the winding numbers and the cavities.
-// Needs a finite mesh.
+// How the surface lies in space: fills in the crossing counts, the winding numbers and the
+// cavities. Needs a finite mesh.
 void examine_embedding(const Surface& surface, const CertifyOptions& options,
                        MeshCertificate& certificate);
 

@@ -51,7 +51,8 @@ double closing_weld(const Surface& surface, const MeshCertificate& certificate) 
     }
     bool open = faces.empty();
     const std::vector<EdgeUse> uses = sorted_edge_uses(faces);
-    for_each_edge(uses, [&](std::size_t begin, std::size_t end) { open = open || (end - begin) % 2 != 0; });
+    for_each_edge(
+        uses, [&](std::size_t begin, std::size_t end) { open = open || (end - begin) % 2 != 0; });
     if (!open) return tolerance;
   }
   return 0;
@@ -60,8 +61,10 @@ double closing_weld(const Surface& surface, const MeshCertificate& certificate) 
 std::string open_remedy(const Surface& surface, const MeshCertificate& certificate) {
   const double weld = closing_weld(surface, certificate);
   if (weld > 0) return "repair with weld_tolerance " + short_number(weld) + " m closes it";
-  if (certificate.duplicate_faces > 0) return "repair drops duplicate faces; else method shell, voxel or hull";
-  return "close the holes in a modelling program, or use method shell (a sheet), voxel (a body with "
+  if (certificate.duplicate_faces > 0)
+    return "repair drops duplicate faces; else method shell, voxel or hull";
+  return "close the holes in a modelling program, or use method shell (a sheet), voxel (a body "
+         "with "
          "small holes) or hull (its convex envelope)";
 }
 
@@ -77,10 +80,12 @@ void conclude(const Surface& surface, MeshCertificate& certificate) {
   const MeshCertificate& c = certificate;
 
   if (c.non_finite_vertices > 0) {
-    fault(number(c.non_finite_vertices, "vertex is", "vertices are") + " not finite", "export the mesh again");
+    fault(number(c.non_finite_vertices, "vertex is", "vertices are") + " not finite",
+          "export the mesh again");
   }
   if (c.out_of_range_triangles > 0) {
-    fault(number(c.out_of_range_triangles, "triangle names", "triangles name") + " a vertex that does not exist",
+    fault(number(c.out_of_range_triangles, "triangle names", "triangles name") +
+              " a vertex that does not exist",
           "export the mesh again");
   }
   if (surface.faces.empty()) {
@@ -92,9 +97,11 @@ void conclude(const Surface& surface, MeshCertificate& certificate) {
          " where another one does (counted as one here)");
   }
   if (c.degenerate_faces > 0) {
-    note(number(c.degenerate_faces, "face has", "faces have") + " no area", "repair drops those that hold nothing together");
+    note(number(c.degenerate_faces, "face has", "faces have") + " no area",
+         "repair drops those that hold nothing together");
   }
-  if (c.unused_vertices > 0) note(number(c.unused_vertices, "vertex is", "vertices are") + " not used");
+  if (c.unused_vertices > 0)
+    note(number(c.unused_vertices, "vertex is", "vertices are") + " not used");
   if (c.duplicate_faces > 0) {
     note(number(c.duplicate_faces, "face is", "faces are") + " there twice", "repair drops them");
   }
@@ -102,10 +109,12 @@ void conclude(const Surface& surface, MeshCertificate& certificate) {
     note(number(c.non_manifold_edges, "edge is", "edges are") + " shared by more than two faces");
   }
   if (c.non_manifold_vertices > 0) {
-    note(number(c.non_manifold_vertices, "vertex joins", "vertices join") + " parts of the surface in a point only");
+    note(number(c.non_manifold_vertices, "vertex joins", "vertices join") +
+         " parts of the surface in a point only");
   }
   if (c.touching_pairs > 0) {
-    note(number(c.touching_pairs, "pair of faces touches", "pairs of faces touch") + " without passing through");
+    note(number(c.touching_pairs, "pair of faces touches", "pairs of faces touch") +
+         " without passing through");
   }
 
   if (!c.closed) {
@@ -114,7 +123,8 @@ void conclude(const Surface& surface, MeshCertificate& certificate) {
           open_remedy(surface, c));
   }
   if (!c.consistently_oriented) {
-    fault("neighbouring faces disagree about the outside at " + number(c.inconsistent_edges, "edge", "edges"),
+    fault("neighbouring faces disagree about the outside at " +
+              number(c.inconsistent_edges, "edge", "edges"),
           c.orientable ? "repair with orient = true turns faces until they agree"
                        : "some part is one-sided or branches; use method shell or hull");
   }
@@ -127,24 +137,29 @@ void conclude(const Surface& surface, MeshCertificate& certificate) {
             "repair with orient = true turns it");
     }
     if (c.winding_max > 1 || (c.winding_min < 0 && !c.inside_out)) {
-      fault("parts overlap or contain each other: the surface winds " + std::to_string(c.winding_min) + " to " +
-                std::to_string(c.winding_max) + " times around points, a solid 0 to 1",
-            "unite the parts in a modelling program; method voxel counts overlaps once; repair with "
-            "orient = true turns inner shells into cavities");
+      fault(
+          "parts overlap or contain each other: the surface winds " +
+              std::to_string(c.winding_min) + " to " + std::to_string(c.winding_max) +
+              " times around points, a solid 0 to 1",
+          "unite the parts in a modelling program; method voxel counts overlaps once; repair with "
+          "orient = true turns inner shells into cavities");
     }
   }
   if (c.crossing_pairs > 0) {
     std::string where;
     for (const auto& pair : c.crossing_examples) {
-      where += (where.empty() ? " (triangles " : ", ") + std::to_string(pair[0]) + "/" + std::to_string(pair[1]);
+      where += (where.empty() ? " (triangles " : ", ") + std::to_string(pair[0]) + "/" +
+               std::to_string(pair[1]);
     }
     fault((c.crossing_count_complete ? "" : "at least ") +
-              number(c.crossing_pairs, "pair of faces passes", "pairs of faces pass") + " through each other" + where + ")",
+              number(c.crossing_pairs, "pair of faces passes", "pairs of faces pass") +
+              " through each other" + where + ")",
           "unite the parts in a modelling program, or use method voxel or hull");
   } else if (!c.crossing_count_complete) {
     fault("too many faces overlap in space to test all for crossing",
           "simplify the mesh, or use method voxel or hull");
-  } else if (c.embedding == Embedding::NotTested && c.non_finite_vertices == 0 && c.out_of_range_triangles == 0) {
+  } else if (c.embedding == Embedding::NotTested && c.non_finite_vertices == 0 &&
+             c.out_of_range_triangles == 0) {
     note("not tested for self-crossing");
   }
 

@@ -123,9 +123,12 @@ int orientation_3d(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
                       (std::abs(axby) + std::abs(bxay)) * std::abs(cdz);
   if (std::abs(determinant) > kFilter3d * size || size == 0) return -sign_of(determinant);
 
-  const Expansion ax = Expansion::difference(a.x(), d.x()), ay = Expansion::difference(a.y(), d.y());
-  const Expansion bx = Expansion::difference(b.x(), d.x()), by = Expansion::difference(b.y(), d.y());
-  const Expansion cx = Expansion::difference(c.x(), d.x()), cy = Expansion::difference(c.y(), d.y());
+  const Expansion ax = Expansion::difference(a.x(), d.x()),
+                  ay = Expansion::difference(a.y(), d.y());
+  const Expansion bx = Expansion::difference(b.x(), d.x()),
+                  by = Expansion::difference(b.y(), d.y());
+  const Expansion cx = Expansion::difference(c.x(), d.x()),
+                  cy = Expansion::difference(c.y(), d.y());
   Expansion sum = minor_of(bx, by, cx, cy).times(Expansion::difference(a.z(), d.z()));
   sum.add(minor_of(cx, cy, ax, ay).times(Expansion::difference(b.z(), d.z())), 1);
   sum.add(minor_of(ax, ay, bx, by).times(Expansion::difference(c.z(), d.z())), 1);

@@ -58,7 +58,8 @@ void TriangleBvh::overlapping_pairs(
     if (a != b && !node_a.box.intersects(node_b.box)) continue;
     if (node_a.count > 0 && node_b.count > 0) {
       for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i) {
-        for (std::uint32_t j = (a == b ? i + 1 : node_b.first); j < node_b.first + node_b.count; ++j) {
+        for (std::uint32_t j = (a == b ? i + 1 : node_b.first); j < node_b.first + node_b.count;
+             ++j) {
           if (boxes_[i].intersects(boxes_[j]) && !visit(order_[i], order_[j])) return;
         }
       }

@@ -1,11 +1,10 @@
 #include "geometry/triangle_pair.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-
-#include <Eigen/Geometry>
 
 #include "geometry/exact_predicates.h"
 
@@ -26,7 +25,9 @@ int axis_to_drop(const Corners& t) {
 }
 
 Vector2d drop(const Vector3d& p, int axis) {
-  return axis == 0 ? Vector2d(p.y(), p.z()) : axis == 1 ? Vector2d(p.z(), p.x()) : Vector2d(p.x(), p.y());
+  return axis == 0   ? Vector2d(p.y(), p.z())
+         : axis == 1 ? Vector2d(p.z(), p.x())
+                     : Vector2d(p.x(), p.y());
 }
 
 // Counter-clockwise.
@@ -107,7 +108,8 @@ PairRelation relation_of(const std::vector<Vector3d>& places, const Triangle& fi
   }
   // All of b on one side of a's plane, or the other way round: the usual case.
   std::array<int, 3> b_sides{};
-  for (std::size_t j = 0; j < 3; ++j) b_sides[j] = b_shared[j] ? 0 : orientation_3d(a[0], a[1], a[2], b[j]);
+  for (std::size_t j = 0; j < 3; ++j)
+    b_sides[j] = b_shared[j] ? 0 : orientation_3d(a[0], a[1], a[2], b[j]);
   const auto [lowest, highest] = std::minmax_element(b_sides.begin(), b_sides.end());
   const bool coplanar = *lowest == 0 && *highest == 0;
   if (coplanar) return coplanar_overlap(a, b) ? PairRelation::Touching : PairRelation::Apart;
@@ -118,8 +120,10 @@ PairRelation relation_of(const std::vector<Vector3d>& places, const Triangle& fi
   PairRelation relation = PairRelation::Apart;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t next = (i + 1) % 3;
-    if (!a_shared[i] && !a_shared[next]) relation = worse(relation, segment_against(a[i], a[next], b, contact));
-    if (!b_shared[i] && !b_shared[next]) relation = worse(relation, segment_against(b[i], b[next], a, contact));
+    if (!a_shared[i] && !a_shared[next])
+      relation = worse(relation, segment_against(a[i], a[next], b, contact));
+    if (!b_shared[i] && !b_shared[next])
+      relation = worse(relation, segment_against(b[i], b[next], a, contact));
     if (relation == PairRelation::Crossing) return relation;
   }
   return relation;

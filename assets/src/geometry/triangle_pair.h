@@ -1,10 +1,9 @@
 // How two triangles of one mesh lie to each other, exactly for the coordinates as given.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "plumb/assets/mesh.h"
 

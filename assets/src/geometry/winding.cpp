@@ -1,12 +1,11 @@
 #include "geometry/winding.h"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
-
-#include <Eigen/Geometry>
 
 namespace plumb::inline PLUMB_ABI::assets::detail {
 namespace {
@@ -86,7 +85,8 @@ double WindingField::sum(const Vector3d& point, std::uint32_t skip, const Vector
       const std::uint32_t number = bvh_.order()[i];
       if (number == skip) continue;
       const Triangle& t = triangles_[number];
-      const Vector3d a = vertices_[t[0]] - point, b = vertices_[t[1]] - point, c = vertices_[t[2]] - point;
+      const Vector3d a = vertices_[t[0]] - point, b = vertices_[t[1]] - point,
+                     c = vertices_[t[2]] - point;
       const double la = a.norm(), lb = b.norm(), lc = c.norm();
       const double volume = a.dot(b.cross(c));
       const double spread = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
@@ -108,7 +108,8 @@ double WindingField::at(const Vector3d& point) const {
 
 WindingField::Sides WindingField::beside(std::uint32_t triangle, const Vector3d& point) const {
   const Triangle& t = triangles_[triangle];
-  const Vector3d normal = (vertices_[t[1]] - vertices_[t[0]]).cross(vertices_[t[2]] - vertices_[t[0]]);
+  const Vector3d normal =
+      (vertices_[t[1]] - vertices_[t[0]]).cross(vertices_[t[2]] - vertices_[t[0]]);
   double jump = 1;  // this face itself
   const double middle = sum(point, triangle, normal, jump);
   return {middle - 0.5 * jump, middle + 0.5 * jump};

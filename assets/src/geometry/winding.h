@@ -1,12 +1,11 @@
 // How often a surface winds around a point: 1 inside a solid, 0 outside, a fraction near the holes
-// of an open surface. The sum of the signed solid angles of all faces over 4 pi [Van Oosterom 1983],
-// with far groups of faces replaced by one dipole each [Barill 2018].
+// of an open surface. The sum of the signed solid angles of all faces over 4 pi [Van Oosterom
+// 1983], with far groups of faces replaced by one dipole each [Barill 2018].
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "geometry/triangle_bvh.h"
 #include "plumb/assets/mesh.h"
@@ -15,7 +14,8 @@ namespace plumb::inline PLUMB_ABI::assets::detail {
 
 class WindingField {
  public:
-  // The arrays must outlive the field. `which` lists the triangles to use, all with finite vertices.
+  // The arrays must outlive the field. `which` lists the triangles to use, all with finite
+  // vertices.
   WindingField(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Triangle>& triangles,
                std::vector<std::uint32_t> which);
 
@@ -32,9 +32,9 @@ class WindingField {
 
  private:
   struct Cluster {
-    Eigen::Vector3d center;     // [m] centroid of the faces
-    Eigen::Vector3d area;       // [m^2] sum of the area vectors
-    double radius;              // [m] of the ball around the center that holds the faces
+    Eigen::Vector3d center;  // [m] centroid of the faces
+    Eigen::Vector3d area;    // [m^2] sum of the area vectors
+    double radius;           // [m] of the ball around the center that holds the faces
   };
   // Sums over faces other than `skip`; `lie_on` counts faces through the point, +1 for those that
   // look the same way as `normal`, -1 for the others.

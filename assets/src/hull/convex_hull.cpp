@@ -1,15 +1,13 @@
-#include "plumb/assets/hull.h"
-
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-
 #include "hull/qhull.h"
 #include "hull/simplify.h"
 #include "mesh/topology.h"
+#include "plumb/assets/hull.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 namespace detail {
@@ -21,14 +19,17 @@ using Eigen::Vector3d;
 // nearly coplanar faces would merge the whole body.
 constexpr double kFlatExtent = 1e-8;
 
-const char* kDimensionText[] = {"all stand in one place", "all lie on one line", "all lie in one plane"};
+const char* kDimensionText[] = {"all stand in one place", "all lie on one line",
+                                "all lie in one plane"};
 
 // 0 one point, 1 a line, 2 a plane, 3 a body; of points of size about 1. Extents along the axes of
-// the points themselves, found one after the other: farthest pair, farthest from the line, from the plane.
+// the points themselves, found one after the other: farthest pair, farthest from the line, from the
+// plane.
 int dimension_of(const std::vector<Vector3d>& points) {
   const auto farthest = [&](auto&& distance) {
-    return *std::max_element(points.begin(), points.end(),
-                             [&](const Vector3d& a, const Vector3d& b) { return distance(a) < distance(b); });
+    return *std::max_element(
+        points.begin(), points.end(),
+        [&](const Vector3d& a, const Vector3d& b) { return distance(a) < distance(b); });
   };
   const Vector3d origin = points.front();
   const Vector3d a = farthest([&](const Vector3d& p) { return (p - origin).norm(); });
@@ -50,7 +51,8 @@ double measured_outside(const HullMesh& hull, const std::vector<Vector3d>& point
   for (const auto& face : hull.faces) {
     const Vector3d normal = polygon_area_vector(hull.vertices, face).normalized();
     Vector3d on_plane = Vector3d::Zero();
-    for (const std::uint32_t v : face) on_plane += hull.vertices[v] / static_cast<double>(face.size());
+    for (const std::uint32_t v : face)
+      on_plane += hull.vertices[v] / static_cast<double>(face.size());
     for (const Vector3d& p : points) outside = std::max(outside, normal.dot(p - on_plane));
   }
   return outside;
@@ -58,7 +60,8 @@ double measured_outside(const HullMesh& hull, const std::vector<Vector3d>& point
 
 }  // namespace
 
-Vector3d polygon_area_vector(const std::vector<Vector3d>& vertices, const std::vector<std::uint32_t>& face) {
+Vector3d polygon_area_vector(const std::vector<Vector3d>& vertices,
+                             const std::vector<std::uint32_t>& face) {
   Vector3d area = Vector3d::Zero();
   const Vector3d& first = vertices[face[0]];
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {
@@ -92,7 +95,8 @@ using Eigen::Vector3d;
 
 Result<HullMesh> convex_hull(std::span<const Vector3d> points, const HullOptions& options) {
   if (points.size() < 4) {
-    return Error{"convex hull: " + std::to_string(points.size()) + " points do not make a body; 4 at least do"};
+    return Error{"convex hull: " + std::to_string(points.size()) +
+                 " points do not make a body; 4 at least do"};
   }
   if (!(options.coplanar_tolerance >= 0 && options.coplanar_tolerance <= 1e-2)) {
     return Error{"convex hull: coplanar_tolerance must be 0 to 0.01"};
@@ -102,7 +106,8 @@ Result<HullMesh> convex_hull(std::span<const Vector3d> points, const HullOptions
   }
   Vector3d lower = points[0], upper = points[0];
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) return Error{"convex hull: point " + std::to_string(i) + " is not finite"};
+    if (!points[i].allFinite())
+      return Error{"convex hull: point " + std::to_string(i) + " is not finite"};
     lower = lower.cwiseMin(points[i]);
     upper = upper.cwiseMax(points[i]);
   }
@@ -127,12 +132,14 @@ Result<HullMesh> convex_hull(std::span<const Vector3d> points, const HullOptions
   HullMesh full = detail::compact_hull(unit, run->polygons);
   full.full_vertex_count = full.vertices.size();
   if (options.max_vertices != 0 && full.vertices.size() > options.max_vertices) {
-    Result<HullMesh> simple = detail::simplified(full, options.max_vertices, options.coplanar_tolerance);
+    Result<HullMesh> simple =
+        detail::simplified(full, options.max_vertices, options.coplanar_tolerance);
     if (!simple) return Error{simple.error()};
     full = std::move(simple).value();
   } else {
-    full.max_outside = unit.size() * full.faces.size() <= detail::kMaxMeasured ? detail::measured_outside(full, unit)
-                                                                               : run->outer;
+    full.max_outside = unit.size() * full.faces.size() <= detail::kMaxMeasured
+                           ? detail::measured_outside(full, unit)
+                           : run->outer;
   }
   for (Vector3d& p : full.vertices) p = middle + size * p;
   full.max_outside *= size;
@@ -145,7 +152,8 @@ TriangleMesh triangulated(const HullMesh& hull) {
   mesh.name = "hull";
   mesh.vertices = hull.vertices;
   for (const auto& face : hull.faces) {
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) mesh.triangles.push_back({face[0], face[i], face[i + 1]});
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
+      mesh.triangles.push_back({face[0], face[i], face[i + 1]});
   }
   return mesh;
 }

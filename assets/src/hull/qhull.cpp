@@ -45,7 +45,8 @@ bool read_faces(qhT* qh, std::vector<int>& flat, double& outer) {
 Result<QhullRun> run_qhull(const std::vector<Eigen::Vector3d>& points, double coplanar_tolerance) {
   std::vector<coordT> coordinates;
   coordinates.reserve(3 * points.size());
-  for (const Eigen::Vector3d& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+  for (const Eigen::Vector3d& p : points)
+    coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
 
   // C-n merges neighbours whose centre lies within n of the other's plane; Pp keeps quiet.
   char command[64];
@@ -56,8 +57,8 @@ Result<QhullRun> run_qhull(const std::vector<Eigen::Vector3d>& points, double co
   qhT qh_state;
   qhT* qh = &qh_state;
   qh_zero(qh, messages);
-  const int exit_code = qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates.data(), False, command,
-                                     nullptr, messages);
+  const int exit_code = qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates.data(),
+                                     False, command, nullptr, messages);
   std::vector<int> flat;
   QhullRun run;
   const bool complete = exit_code == 0 && read_faces(qh, flat, run.outer);
@@ -70,11 +71,13 @@ Result<QhullRun> run_qhull(const std::vector<Eigen::Vector3d>& points, double co
     char line[256] = "";
     std::rewind(messages);
     if (std::fgets(line, sizeof line, messages) != nullptr) first_line = line;
-    while (!first_line.empty() && (first_line.back() == '\n' || first_line.back() == ' ')) first_line.pop_back();
+    while (!first_line.empty() && (first_line.back() == '\n' || first_line.back() == ' '))
+      first_line.pop_back();
   }
   std::fclose(messages);
   if (!complete) {
-    return Error{"convex hull: Qhull gave up" + (first_line.empty() ? std::string() : " (" + first_line + ")") +
+    return Error{"convex hull: Qhull gave up" +
+                 (first_line.empty() ? std::string() : " (" + first_line + ")") +
                  "; the points may be too flat for a body"};
   }
 

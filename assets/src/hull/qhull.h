@@ -1,17 +1,17 @@
 // One run of Qhull [Barber 1996]: points in, outward polygons out.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "plumb/assets/result.h"
 
 namespace plumb::inline PLUMB_ABI::assets::detail {
 
-using Polygons = std::vector<std::vector<std::uint32_t>>;  // point numbers, counter-clockwise from outside
+using Polygons =
+    std::vector<std::vector<std::uint32_t>>;  // point numbers, counter-clockwise from outside
 
 struct QhullRun {
   Polygons polygons;

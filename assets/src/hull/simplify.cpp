@@ -1,10 +1,9 @@
 #include "hull/simplify.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Geometry>
 
 namespace plumb::inline PLUMB_ABI::assets::detail {
 namespace {
@@ -12,7 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 // Distance from a point to a triangle [Ericson 2005, section 5.1.5].
-double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                            const Vector3d& c) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return ap.norm();
@@ -27,7 +27,8 @@ double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).norm();
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
+  if (va <= 0 && d4 >= d3 && d5 >= d6)
+    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
   const double sum = va + vb + vc;
   return (ap - vb / sum * ab - vc / sum * ac).norm();
 }
@@ -39,7 +40,8 @@ struct Plane {
 std::vector<Plane> planes_of(const HullMesh& hull) {
   std::vector<Plane> planes;
   for (const auto& face : hull.faces) {
-    planes.push_back({polygon_area_vector(hull.vertices, face).normalized(), hull.vertices[face[0]]});
+    planes.push_back(
+        {polygon_area_vector(hull.vertices, face).normalized(), hull.vertices[face[0]]});
   }
   return planes;
 }
@@ -71,15 +73,18 @@ std::vector<std::size_t> first_four(const std::vector<Vector3d>& points) {
   const std::size_t a = farthest([](const Vector3d& p) { return -p.x(); });
   const std::size_t b = farthest([&](const Vector3d& p) { return (p - points[a]).norm(); });
   const Vector3d along = (points[b] - points[a]).normalized();
-  const std::size_t c = farthest([&](const Vector3d& p) { return (p - points[a]).cross(along).norm(); });
+  const std::size_t c =
+      farthest([&](const Vector3d& p) { return (p - points[a]).cross(along).norm(); });
   const Vector3d normal = along.cross(points[c] - points[a]).normalized();
-  const std::size_t d = farthest([&](const Vector3d& p) { return std::abs((p - points[a]).dot(normal)); });
+  const std::size_t d =
+      farthest([&](const Vector3d& p) { return std::abs((p - points[a]).dot(normal)); });
   return {a, b, c, d};
 }
 
 }  // namespace
 
-Result<HullMesh> simplified(const HullMesh& full, std::size_t max_vertices, double coplanar_tolerance) {
+Result<HullMesh> simplified(const HullMesh& full, std::size_t max_vertices,
+                            double coplanar_tolerance) {
   std::vector<std::size_t> chosen = first_four(full.vertices);
   HullMesh hull;
   for (;;) {
@@ -109,7 +114,8 @@ Result<HullMesh> simplified(const HullMesh& full, std::size_t max_vertices, doub
     if (height_outside(planes, p) <= 0) continue;
     double nearest = std::numeric_limits<double>::infinity();
     for (const Triangle& t : triangles.triangles) {
-      nearest = std::min(nearest, distance_to_triangle(p, hull.vertices[t[0]], hull.vertices[t[1]], hull.vertices[t[2]]));
+      nearest = std::min(nearest, distance_to_triangle(p, hull.vertices[t[0]], hull.vertices[t[1]],
+                                                       hull.vertices[t[2]]));
     }
     hull.simplification_distance = std::max(hull.simplification_distance, nearest);
   }

@@ -18,6 +18,7 @@ HullMesh compact_hull(const std::vector<Eigen::Vector3d>& points, const Polygons
 
 // Grows a hull from few of the vertices, always adding the one farthest outside, until there are
 // `max_vertices`; then measures what was left out. Works on hulls of size about 1.
-Result<HullMesh> simplified(const HullMesh& full, std::size_t max_vertices, double coplanar_tolerance);
+Result<HullMesh> simplified(const HullMesh& full, std::size_t max_vertices,
+                            double coplanar_tolerance);
 
 }  // namespace plumb::inline PLUMB_ABI::assets::detail

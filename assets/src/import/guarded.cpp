@@ -3,6 +3,13 @@
 
 #if defined(__unix__) || defined(__APPLE__)
 
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -11,18 +18,11 @@
 #include <type_traits>
 #include <vector>
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/resource.h>
-#include <sys/types.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 namespace plumb::inline PLUMB_ABI::assets {
 namespace {
 
 constexpr std::uint8_t kSuccess = 1, kFailure = 2;
-constexpr int kPollMilliseconds = 50;  // [ms] how often the time limit is looked at
+constexpr int kPollMilliseconds = 50;                 // [ms] how often the time limit is looked at
 constexpr std::size_t kChunk = std::size_t{1} << 16;  // [byte] a pipe's usual capacity
 
 // The address sanitizer reserves terabytes for itself: with it no limit on memory can be set.
@@ -116,7 +116,9 @@ std::vector<std::uint8_t> packed(const Result<Imported>& result) {
   out.put(r.file_up);
   out.put(r.up_origin);
   out.put(r.world_up);
-  for (const std::size_t n : {r.parts, r.mirrored_parts, r.skinned_parts, r.dropped_points, r.dropped_lines}) out.put(n);
+  for (const std::size_t n :
+       {r.parts, r.mirrored_parts, r.skinned_parts, r.dropped_points, r.dropped_lines})
+    out.put(n);
   out.put(r.coordinate_rounding);
   out.put(r.notes.size());
   for (const std::string& note : r.notes) out.put_text(note);
@@ -147,7 +149,8 @@ Result<Imported> unpacked(const std::vector<std::uint8_t>& bytes, const std::str
   r.file_up = in.get<Axis>();
   r.up_origin = in.get<Origin>();
   r.world_up = in.get<Axis>();
-  for (std::size_t* n : {&r.parts, &r.mirrored_parts, &r.skinned_parts, &r.dropped_points, &r.dropped_lines}) {
+  for (std::size_t* n :
+       {&r.parts, &r.mirrored_parts, &r.skinned_parts, &r.dropped_points, &r.dropped_lines}) {
     *n = in.get<std::size_t>();
   }
   r.coordinate_rounding = in.get<double>();
@@ -172,7 +175,8 @@ Result<Imported> unpacked(const std::vector<std::uint8_t>& bytes, const std::str
 // Everything the child sends until it closes the pipe; false if the time runs out first.
 bool receive(int input, double time_limit, std::vector<std::uint8_t>& bytes) {
   using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_limit));
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(time_limit));
   std::vector<std::uint8_t> chunk(kChunk);
   for (;;) {
     pollfd waiting{input, POLLIN, 0};
@@ -189,12 +193,15 @@ bool receive(int input, double time_limit, std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-Result<Imported> import_mesh_guarded(const std::string& path, const ImportOptions& options, double time_limit) {
+Result<Imported> import_mesh_guarded(const std::string& path, const ImportOptions& options,
+                                     double time_limit) {
   const auto failure = [&](const std::string& text) { return Error{"'" + path + "': " + text}; };
   constexpr double kLongest = 1e6;  // [s] keeps the clock arithmetic in range
-  if (!(time_limit > 0) || time_limit > kLongest) return failure("the time limit must lie in 0 .. 1e6 s");
+  if (!(time_limit > 0) || time_limit > kLongest)
+    return failure("the time limit must lie in 0 .. 1e6 s");
   int ends[2] = {-1, -1};
-  if (pipe(ends) != 0) return failure(std::string("no pipe for the reading process: ") + std::strerror(errno));
+  if (pipe(ends) != 0)
+    return failure(std::string("no pipe for the reading process: ") + std::strerror(errno));
   const pid_t child = fork();
   if (child < 0) {
     const std::string reason = std::strerror(errno);
@@ -204,7 +211,8 @@ Result<Imported> import_mesh_guarded(const std::string& path, const ImportOption
   }
   if (child == 0) {
     close(ends[0]);
-    for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) std::signal(signal_number, SIG_DFL);
+    for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL})
+      std::signal(signal_number, SIG_DFL);
     if (const int quiet = open("/dev/null", O_WRONLY); quiet >= 0) {
       dup2(quiet, STDOUT_FILENO);  // readers print; their last words are not the caller's
       dup2(quiet, STDERR_FILENO);
@@ -224,7 +232,8 @@ Result<Imported> import_mesh_guarded(const std::string& path, const ImportOption
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!in_time) return failure("the reader did not finish within " + std::to_string(time_limit) + " s");
+  if (!in_time)
+    return failure("the reader did not finish within " + std::to_string(time_limit) + " s");
   if (WIFSIGNALED(status)) {
     return failure(std::string("the reader crashed (") + strsignal(WTERMSIG(status)) +
                    "); export the file again or convert it to another format");
@@ -240,7 +249,9 @@ Result<Imported> import_mesh_guarded(const std::string& path, const ImportOption
 namespace plumb::inline PLUMB_ABI::assets {
 
 Result<Imported> import_mesh_guarded(const std::string& path, const ImportOptions&, double) {
-  return Error{"'" + path + "': reading in a process of its own is not available on this system; use import_mesh"};
+  return Error{
+      "'" + path +
+      "': reading in a process of its own is not available on this system; use import_mesh"};
 }
 
 }  // namespace plumb::inline PLUMB_ABI::assets

@@ -1,6 +1,13 @@
 #include "plumb/assets/import.h"
 
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
 #include <exception>
@@ -9,13 +16,6 @@
 #include <limits>
 #include <system_error>
 #include <utility>
-
-#include <Eigen/Geometry>
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 
 #include "import/units.h"
 
@@ -30,26 +30,32 @@ constexpr int kMaxNodeDepth = 1000;  // a chain of nodes this long is a loop or 
 
 Affine3d to_affine(const aiMatrix4x4& m) {
   Affine3d a;
-  a.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
+  a.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
+      m.d3, m.d4;
   return a;
 }
 
 class Collector {
  public:
-  Collector(const aiScene& scene, const Matrix3d& to_world, const ImportOptions& options, Imported& out)
+  Collector(const aiScene& scene, const Matrix3d& to_world, const ImportOptions& options,
+            Imported& out)
       : scene_(scene), to_world_(to_world), options_(options), out_(out) {}
 
   // Empty text if all is well.
   std::string visit(const aiNode& node, const Affine3d& parent, int depth) {
-    if (depth > kMaxNodeDepth) return "more than " + std::to_string(kMaxNodeDepth) + " nodes stand inside each other";
+    if (depth > kMaxNodeDepth)
+      return "more than " + std::to_string(kMaxNodeDepth) + " nodes stand inside each other";
     const Affine3d transform(parent.matrix() * to_affine(node.mTransformation).matrix());
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const unsigned number = node.mMeshes[i];
-      if (number >= scene_.mNumMeshes) return "node '" + std::string(node.mName.C_Str()) + "' names a mesh that is not there";
-      if (std::string error = append(*scene_.mMeshes[number], transform); !error.empty()) return error;
+      if (number >= scene_.mNumMeshes)
+        return "node '" + std::string(node.mName.C_Str()) + "' names a mesh that is not there";
+      if (std::string error = append(*scene_.mMeshes[number], transform); !error.empty())
+        return error;
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) {
-      if (std::string error = visit(*node.mChildren[i], transform, depth + 1); !error.empty()) return error;
+      if (std::string error = visit(*node.mChildren[i], transform, depth + 1); !error.empty())
+        return error;
     }
     return {};
   }
@@ -59,7 +65,8 @@ class Collector {
     TriangleMesh& mesh = out_.mesh;
     ImportReport& report = out_.report;
     const std::size_t base = mesh.vertices.size();
-    if (base + part.mNumVertices > std::numeric_limits<std::uint32_t>::max()) return "more than 2^32 vertices";
+    if (base + part.mNumVertices > std::numeric_limits<std::uint32_t>::max())
+      return "more than 2^32 vertices";
     const Affine3d to_metres(Eigen::Affine3d(to_world_) * transform);
     const bool mirrored = to_metres.linear().determinant() < 0;
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
@@ -67,7 +74,8 @@ class Collector {
       mesh.vertices.push_back(to_metres * p);
       // Each coordinate came as a float: half a unit in its last place, seen in metres.
       const double largest = p.cwiseAbs().maxCoeff();
-      if (std::isfinite(largest)) rounding_ = std::max(rounding_, largest * to_metres.linear().norm());
+      if (std::isfinite(largest))
+        rounding_ = std::max(rounding_, largest * to_metres.linear().norm());
     }
     std::size_t triangles = 0;
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
@@ -78,8 +86,9 @@ class Collector {
       Triangle triangle{};
       for (unsigned i = 0; i < 3; ++i) {
         if (face.mIndices[i] >= part.mNumVertices) {
-          return "face " + std::to_string(f) + " of part '" + part.mName.C_Str() + "' names vertex " +
-                 std::to_string(face.mIndices[i]) + " of " + std::to_string(part.mNumVertices);
+          return "face " + std::to_string(f) + " of part '" + part.mName.C_Str() +
+                 "' names vertex " + std::to_string(face.mIndices[i]) + " of " +
+                 std::to_string(part.mNumVertices);
         }
         triangle[i] = static_cast<std::uint32_t>(base + face.mIndices[i]);
       }
@@ -89,7 +98,8 @@ class Collector {
     }
     if (triangles == 0) return {};
     if (mesh.triangles.size() > options_.max_triangles) {
-      return "more than " + std::to_string(options_.max_triangles) + " triangles; raise max_triangles or simplify it";
+      return "more than " + std::to_string(options_.max_triangles) +
+             " triangles; raise max_triangles or simplify it";
     }
     ++report.parts;
     if (mirrored) ++report.mirrored_parts;
@@ -124,12 +134,15 @@ std::string cut_off_header(const std::string& path) {
   if (head != "ply" && head != "PLY") return {};
   head.assign(kMostHeader, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head.find("end_header") == std::string::npos ? "the PLY header has no end_header line; the file is cut off" : "";
+  return head.find("end_header") == std::string::npos
+             ? "the PLY header has no end_header line; the file is cut off"
+             : "";
 }
 
 Result<Imported> read(const std::string& path, const ImportOptions& options) {
   const auto failure = [&](const std::string& text) { return Error{"'" + path + "': " + text}; };
-  if (options.metres_per_unit && !(*options.metres_per_unit > 0 && std::isfinite(*options.metres_per_unit))) {
+  if (options.metres_per_unit &&
+      !(*options.metres_per_unit > 0 && std::isfinite(*options.metres_per_unit))) {
     return failure("metres_per_unit must be finite and above 0");
   }
   std::error_code code;
@@ -138,19 +151,21 @@ Result<Imported> read(const std::string& path, const ImportOptions& options) {
   const std::uintmax_t bytes = std::filesystem::file_size(file, code);
   if (code) return failure("its size cannot be read: " + code.message());
   if (bytes > options.max_file_bytes) {
-    return failure("it has " + std::to_string(bytes) + " bytes, more than max_file_bytes = " +
-                   std::to_string(options.max_file_bytes));
+    return failure("it has " + std::to_string(bytes) +
+                   " bytes, more than max_file_bytes = " + std::to_string(options.max_file_bytes));
   }
 
   if (const std::string fault = cut_off_header(path); !fault.empty()) return failure(fault);
 
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.file_up.has_value());
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
+                           options.file_up.has_value());
   // Only what the mass of a body needs: nothing is joined, smoothed or dropped behind our back.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                  aiComponent_TEXCOORDS | aiComponent_ANIMATIONS | aiComponent_TEXTURES |
+                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                  aiComponent_COLORS | aiComponent_TEXCOORDS |
+                                  aiComponent_ANIMATIONS | aiComponent_TEXTURES |
                                   aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
   const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -163,22 +178,26 @@ Result<Imported> read(const std::string& path, const ImportOptions& options) {
   out.mesh.name = file.stem().string();
   const std::string extension = lower_extension(file);
   const int reader = importer.GetPropertyInteger("importerIndex", -1);
-  const aiImporterDesc* description = reader < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(reader));
+  const aiImporterDesc* description =
+      reader < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(reader));
   out.report.format = description != nullptr ? description->mName : extension;
 
   const Result<Matrix3d> to_world = detail::to_world(*scene, extension, options, out.report);
   if (!to_world) return failure(to_world.error());
   Collector collector(*scene, *to_world, options, out);
-  if (const std::string error = collector.visit(*scene->mRootNode, Affine3d::Identity(), 0); !error.empty()) {
+  if (const std::string error = collector.visit(*scene->mRootNode, Affine3d::Identity(), 0);
+      !error.empty()) {
     return failure(error);
   }
   if (out.mesh.triangles.empty()) {
     return failure("it holds no triangles (" + std::to_string(scene->mNumMeshes) + " meshes, " +
-                   std::to_string(out.report.dropped_lines) + " lines, " + std::to_string(out.report.dropped_points) +
-                   " points); a body needs a surface");
+                   std::to_string(out.report.dropped_lines) + " lines, " +
+                   std::to_string(out.report.dropped_points) + " points); a body needs a surface");
   }
-  if (out.report.skinned_parts > 0) out.report.notes.push_back("parts with bones are taken in bind pose");
-  if (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) out.report.notes.push_back("the reader calls the scene incomplete");
+  if (out.report.skinned_parts > 0)
+    out.report.notes.push_back("parts with bones are taken in bind pose");
+  if (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)
+    out.report.notes.push_back("the reader calls the scene incomplete");
   return out;
 }
 
@@ -196,10 +215,14 @@ const char* name_of(Axis axis) { return axis == Axis::X ? "x" : axis == Axis::Y 
 
 const char* name_of(Origin origin) {
   switch (origin) {
-    case Origin::File: return "from the file";
-    case Origin::Format: return "by the format";
-    case Origin::Option: return "as asked";
-    case Origin::Unknown: return "assumed";
+    case Origin::File:
+      return "from the file";
+    case Origin::Format:
+      return "by the format";
+    case Origin::Option:
+      return "as asked";
+    case Origin::Unknown:
+      return "assumed";
   }
   return "?";
 }

@@ -1,5 +1,8 @@
 #include "import/units.h"
 
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -7,9 +10,6 @@
 #include <optional>
 #include <set>
 #include <utility>
-
-#include <Eigen/Geometry>
-#include <assimp/scene.h>
 
 namespace plumb::inline PLUMB_ABI::assets::detail {
 namespace {
@@ -21,7 +21,8 @@ constexpr double kCentimetre = 0.01;   // [m] FBX counts its unit in these
 constexpr double kMillimetre = 0.001;  // [m] 3MF and AMF use it unless they say otherwise
 
 // Formats whose specification fixes the unit, or whose reader already converts to metres.
-const std::set<std::string> kMetreFormats{"gltf", "glb", "ifc", "ifczip", "x3d", "x3db", "wrl", "lwo", "lws", "ogex"};
+const std::set<std::string> kMetreFormats{"gltf", "glb", "ifc", "ifczip", "x3d",
+                                          "x3db", "wrl", "lwo", "lws",    "ogex"};
 const std::set<std::string> kMillimetreFormats{"3mf", "amf"};
 // Formats whose specification fixes y as up, or whose reader already turns it up.
 const std::set<std::string> kYUpFormats{"gltf", "glb", "x3d", "x3db", "wrl", "lwo", "lws"};
@@ -68,7 +69,8 @@ double as_written(double through_float) {
 std::optional<double> fbx_unit(const aiScene& scene) {
   std::optional<double> unit = metadata<double>(scene, "UnitScaleFactor");
   if (!unit) {
-    if (const auto single = metadata<float>(scene, "UnitScaleFactor")) unit = as_written(static_cast<double>(*single));
+    if (const auto single = metadata<float>(scene, "UnitScaleFactor"))
+      unit = as_written(static_cast<double>(*single));
   }
   return unit && *unit > 0 && std::isfinite(*unit) ? unit : std::nullopt;
 }
@@ -89,7 +91,8 @@ std::optional<Matrix3d> fbx_axes(const aiScene& scene, ImportReport& report) {
     m(static_cast<Eigen::Index>(row), *axis) = *sign;
   }
   if (std::abs(m.determinant()) != 1) {
-    report.notes.push_back("the axes of the FBX settings are not three different ones; taken as y up");
+    report.notes.push_back(
+        "the axes of the FBX settings are not three different ones; taken as y up");
     return std::nullopt;
   }
   report.file_up = static_cast<Axis>(*metadata<std::int32_t>(scene, kKeys[1][0]));
@@ -104,11 +107,12 @@ double collada_unit(const aiScene& scene) {
 
 }  // namespace
 
-Result<Matrix3d> to_world(const aiScene& scene, const std::string& extension, const ImportOptions& options,
-                          ImportReport& report) {
-  double scale = 1;                       // [m] per unit the reader hands out
-  Matrix3d axes = Matrix3d::Identity();   // from the reader's axes to those with report.file_up applied
-  bool axes_to_y = false;                 // the axes are y-up after `axes`
+Result<Matrix3d> to_world(const aiScene& scene, const std::string& extension,
+                          const ImportOptions& options, ImportReport& report) {
+  double scale = 1;  // [m] per unit the reader hands out
+  Matrix3d axes =
+      Matrix3d::Identity();  // from the reader's axes to those with report.file_up applied
+  bool axes_to_y = false;    // the axes are y-up after `axes`
   report.world_up = options.world_up;
   report.file_up = options.world_up;
 
@@ -135,15 +139,18 @@ Result<Matrix3d> to_world(const aiScene& scene, const std::string& extension, co
     report.unit_origin = Origin::File;
     report.file_up = Axis::Y;
     report.up_origin = Origin::File;
-    report.notes.push_back("the Collada reader applied the file's unit and turned its up axis to y");
+    report.notes.push_back(
+        "the Collada reader applied the file's unit and turned its up axis to y");
     axes_to_y = true;
-    if (!(report.metres_per_unit > 0)) return Error{"the Collada root transform has no volume (unit of 0 m?)"};
+    if (!(report.metres_per_unit > 0))
+      return Error{"the Collada root transform has no volume (unit of 0 m?)"};
   } else {
     if (kMetreFormats.count(extension) > 0) report.unit_origin = Origin::Format;
     if (kMillimetreFormats.count(extension) > 0) {
       scale = report.metres_per_unit = kMillimetre;
       report.unit_origin = Origin::Format;
-      report.notes.push_back("taken as millimetres, the format's default; give metres_per_unit if the file says else");
+      report.notes.push_back(
+          "taken as millimetres, the format's default; give metres_per_unit if the file says else");
     }
     if (kYUpFormats.count(extension) > 0) {
       report.file_up = Axis::Y;
@@ -167,12 +174,15 @@ Result<Matrix3d> to_world(const aiScene& scene, const std::string& extension, co
     axes = bring_up(Axis::Y, options.world_up) * axes;
   }
   if (report.unit_origin == Origin::Unknown) {
-    report.notes.push_back("the file tells no unit; taken as metres (give metres_per_unit otherwise)");
+    report.notes.push_back(
+        "the file tells no unit; taken as metres (give metres_per_unit otherwise)");
   }
   if (report.up_origin == Origin::Unknown) {
-    report.notes.push_back("the file tells no up axis; axes kept as they are (give file_up otherwise)");
+    report.notes.push_back(
+        "the file tells no up axis; axes kept as they are (give file_up otherwise)");
   }
-  if (axes.determinant() < 0) report.notes.push_back("the file's axes are left-handed; the mesh was mirrored back");
+  if (axes.determinant() < 0)
+    report.notes.push_back("the file's axes are left-handed; the mesh was mirrored back");
   return Matrix3d(scale * axes);
 }
 

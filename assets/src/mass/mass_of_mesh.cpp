@@ -1,15 +1,13 @@
-#include "plumb/assets/mass.h"
-
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-
 #include "mass/integrals.h"
 #include "plumb/assets/hull.h"
+#include "plumb/assets/mass.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 namespace {
@@ -35,10 +33,12 @@ std::string short_number(double value) {
 // Moments ascending and a right-handed set of axes.
 void principal_axes(MeshMass& mass) {
   const Matrix3d& tensor = mass.I_Bcm_B;
-  const double off = std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
+  const double off =
+      std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
   if (off <= kDiagonal * tensor.trace()) {
     std::array<Eigen::Index, 3> order{0, 1, 2};
-    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return tensor(a, a) < tensor(b, b); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return tensor(a, a) < tensor(b, b); });
     mass.R_BP.setZero();
     for (Eigen::Index k = 0; k < 3; ++k) {
       const Eigen::Index axis = order[static_cast<std::size_t>(k)];
@@ -58,7 +58,8 @@ Result<detail::Moments> moments_by(const TriangleMesh& mesh, const MeshCertifica
   switch (options.method) {
     case MassMethod::Solid:
       if (!certificate.solid) {
-        return Error{"mesh '" + mesh.name + "' is not the boundary of a solid: " + certificate.fault_text()};
+        return Error{"mesh '" + mesh.name +
+                     "' is not the boundary of a solid: " + certificate.fault_text()};
       }
       return detail::polyhedron_moments(mesh);
     case MassMethod::Shell:
@@ -76,7 +77,8 @@ Result<detail::Moments> moments_by(const TriangleMesh& mesh, const MeshCertifica
       TriangleMesh body = triangulated(*hull);
       body.coordinate_rounding = std::max(mesh.coordinate_rounding, hull->max_outside);
       detail::Moments moments = detail::polyhedron_moments(body);
-      moments.error.basis = "rounding and merged faces; how far the hull is from the mesh is not counted";
+      moments.error.basis =
+          "rounding and merged faces; how far the hull is from the mesh is not counted";
       return moments;
     }
     case MassMethod::Voxel:
@@ -85,7 +87,8 @@ Result<detail::Moments> moments_by(const TriangleMesh& mesh, const MeshCertifica
                      std::to_string(kMaxResolution)};
       }
       if (!certificate.consistently_oriented) {
-        return Error{"mesh '" + mesh.name + "': method voxel needs faces that agree on the outside; they disagree at " +
+        return Error{"mesh '" + mesh.name +
+                     "': method voxel needs faces that agree on the outside; they disagree at " +
                      std::to_string(certificate.inconsistent_edges) +
                      " edges (remedy: repair with orient = true, or method shell or hull)"};
       }
@@ -102,7 +105,8 @@ Result<MeshMass> mass_of_mesh(const TriangleMesh& mesh, const MassOptions& optio
 
 Result<MeshMass> mass_of_mesh(const TriangleMesh& mesh, const MeshCertificate& certificate,
                               const MassOptions& options) {
-  if (certificate.non_finite_vertices > 0 || certificate.out_of_range_triangles > 0 || mesh.triangles.empty()) {
+  if (certificate.non_finite_vertices > 0 || certificate.out_of_range_triangles > 0 ||
+      mesh.triangles.empty()) {
     return Error{"mesh '" + mesh.name + "': " + certificate.fault_text()};
   }
   const bool by_mass = options.total_mass != 0;
@@ -147,16 +151,21 @@ Result<MeshMass> mass_of_mesh(const TriangleMesh& mesh, const MeshCertificate& c
 
 const char* name_of(MassMethod method) {
   switch (method) {
-    case MassMethod::Solid: return "solid";
-    case MassMethod::Shell: return "shell";
-    case MassMethod::Hull: return "hull";
-    case MassMethod::Voxel: return "voxel";
+    case MassMethod::Solid:
+      return "solid";
+    case MassMethod::Shell:
+      return "shell";
+    case MassMethod::Hull:
+      return "hull";
+    case MassMethod::Voxel:
+      return "voxel";
   }
   return "?";
 }
 
 Result<MassMethod> mass_method_from(const std::string& name) {
-  for (const MassMethod method : {MassMethod::Solid, MassMethod::Shell, MassMethod::Hull, MassMethod::Voxel}) {
+  for (const MassMethod method :
+       {MassMethod::Solid, MassMethod::Shell, MassMethod::Hull, MassMethod::Voxel}) {
     if (name == name_of(method)) return method;
   }
   return Error{"unknown mass method '" + name + "'; known are solid, shell, hull and voxel"};

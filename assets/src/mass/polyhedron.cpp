@@ -1,8 +1,7 @@
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Geometry>
 
 #include "mass/compensated_sum.h"
 #include "mass/integrals.h"
@@ -26,7 +25,8 @@ struct Sums {
   double area_times_distance_squared = 0;
 };
 
-constexpr std::array<std::array<Eigen::Index, 2>, 6> kEntries{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+constexpr std::array<std::array<Eigen::Index, 2>, 6> kEntries{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 Sums sums_about(const TriangleMesh& mesh, const Vector3d& reference) {
   Sums sums;
@@ -75,7 +75,8 @@ Moments polyhedron_moments(const TriangleMesh& mesh) {
   moments.center = reference + rest;
   for (std::size_t k = 0; k < 6; ++k) {
     const auto [i, j] = kEntries[k];
-    moments.second(i, j) = moments.second(j, i) = sums.second[k].value() - moments.volume * rest[i] * rest[j];
+    moments.second(i, j) = moments.second(j, i) =
+        sums.second[k].value() - moments.volume * rest[i] * rest[j];
   }
 
   // Rounding of the sums, and of the coordinates: a face moved by delta along its normal adds
@@ -91,10 +92,14 @@ Moments polyhedron_moments(const TriangleMesh& mesh) {
   for (std::size_t k = 0; k < 3; ++k) second_size += sums.second[k].size();
   const double summand = kSummandRoundings * kUnitRoundoff;
   moments.error.volume = (summand * sums.volume.size() + delta * sums.area) / volume;
-  moments.error.center = (summand * first_size + delta * std::sqrt(sums.area * sums.area_times_distance_squared)) / volume +
-                         kUnitRoundoff * largest;
-  moments.error.inertia = (summand * second_size + delta * sums.area_times_distance_squared) / std::abs(trace);
-  moments.error.basis = "rounding of coordinates and sums; the polyhedron itself is integrated exactly";
+  moments.error.center =
+      (summand * first_size + delta * std::sqrt(sums.area * sums.area_times_distance_squared)) /
+          volume +
+      kUnitRoundoff * largest;
+  moments.error.inertia =
+      (summand * second_size + delta * sums.area_times_distance_squared) / std::abs(trace);
+  moments.error.basis =
+      "rounding of coordinates and sums; the polyhedron itself is integrated exactly";
   return moments;
 }
 

@@ -1,9 +1,8 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
-
-#include <Eigen/Geometry>
 
 #include "mass/compensated_sum.h"
 #include "mass/integrals.h"
@@ -27,7 +26,8 @@ double total_curvature(const std::vector<Vector3d>& places, const std::vector<Tr
   std::vector<bool> rim(places.size(), false), used(places.size(), false);
   for (const Triangle& face : faces) {
     for (std::size_t i = 0; i < 3; ++i) {
-      missing[face[i]] -= angle_at(places[face[i]], places[face[(i + 1) % 3]], places[face[(i + 2) % 3]]);
+      missing[face[i]] -=
+          angle_at(places[face[i]], places[face[(i + 1) % 3]], places[face[(i + 2) % 3]]);
       used[face[i]] = true;
     }
   }
@@ -49,7 +49,8 @@ Result<Moments> shell_moments(const TriangleMesh& mesh, double thickness) {
   std::set<Triangle> seen;
   std::vector<Triangle> faces;
   for (const Triangle& triangle : mesh.triangles) {
-    Triangle face{places.place_of[triangle[0]], places.place_of[triangle[1]], places.place_of[triangle[2]]};
+    Triangle face{places.place_of[triangle[0]], places.place_of[triangle[1]],
+                  places.place_of[triangle[2]]};
     Triangle key = face;
     std::sort(key.begin(), key.end());
     if (seen.insert(key).second) faces.push_back(face);
@@ -70,12 +71,15 @@ Result<Moments> shell_moments(const TriangleMesh& mesh, double thickness) {
     area.add(size);
     first += size / 3 * s;
     // Of a flat triangle: area / 12 (a a^T + b b^T + c c^T + s s^T).
-    second += size / 12 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+    second +=
+        size / 12 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
     // The thickness spreads the mass along the normal by t^2 / 12.
-    across += size * thickness * thickness / 12 * normal * normal.transpose() / normal.squaredNorm();
+    across +=
+        size * thickness * thickness / 12 * normal * normal.transpose() / normal.squaredNorm();
   }
   const double total = area.value();
-  if (!(total > 0)) return Error{"mesh '" + mesh.name + "' has no area: method shell needs faces with area"};
+  if (!(total > 0))
+    return Error{"mesh '" + mesh.name + "' has no area: method shell needs faces with area"};
 
   Moments moments;
   const Vector3d offset = first / total;
@@ -87,7 +91,8 @@ Result<Moments> shell_moments(const TriangleMesh& mesh, double thickness) {
   // Steiner's formula: a sheet around a surface of Gauss curvature K holds, beside area x t,
   // t^3 / 12 x integral of K; the same share bounds the moments' shift in kind.
   const double curvature = total_curvature(places.positions, faces);
-  const double share = thickness * thickness / 12 * curvature / total + mesh.coordinate_rounding / std::sqrt(total);
+  const double share =
+      thickness * thickness / 12 * curvature / total + mesh.coordinate_rounding / std::sqrt(total);
   moments.error.volume = share;
   moments.error.center = share * bounds_of(mesh).diagonal();
   // Material on the outer side of a bend lies farther out by up to half a thickness, on the inner

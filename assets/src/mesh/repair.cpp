@@ -1,10 +1,9 @@
 #include "plumb/assets/repair.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
-
-#include <Eigen/Geometry>
 
 #include "geometry/triangle_area.h"
 #include "geometry/winding.h"
@@ -29,7 +28,8 @@ std::size_t drop_hanging_slivers(TriangleMesh& mesh) {
   std::vector<Triangle> kept;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
-    const double area = detail::area_or_zero(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    const double area =
+        detail::area_or_zero(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
     if (area > 0 || !hangs[f]) kept.push_back(t);
   }
   const std::size_t dropped = mesh.triangles.size() - kept.size();
@@ -50,7 +50,8 @@ double signed_volume(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
 
 void flip(Triangle& t) { std::swap(t[1], t[2]); }
 
-// Turns every patch so that it faces outwards, or inwards if it lies inside an odd number of others.
+// Turns every patch so that it faces outwards, or inwards if it lies inside an odd number of
+// others.
 void turn_patches(Repaired& repaired, const detail::Flips& flips) {
   TriangleMesh& mesh = repaired.mesh;
   std::vector<std::vector<std::uint32_t>> patches(flips.patches);
@@ -91,8 +92,9 @@ Result<Repaired> repair(const TriangleMesh& mesh, const RepairOptions& options) 
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) {
       if (v >= mesh.vertices.size()) {
-        return Error{"repair: mesh '" + mesh.name + "' has a triangle with vertex " + std::to_string(v) + " of " +
-                     std::to_string(mesh.vertices.size()) + "; export it again"};
+        return Error{"repair: mesh '" + mesh.name + "' has a triangle with vertex " +
+                     std::to_string(v) + " of " + std::to_string(mesh.vertices.size()) +
+                     "; export it again"};
       }
       if (!mesh.vertices[v].allFinite()) {
         return Error{"repair: vertex " + std::to_string(v) + " of mesh '" + mesh.name +
@@ -134,7 +136,8 @@ Result<Repaired> repair(const TriangleMesh& mesh, const RepairOptions& options) 
     }
     repaired.mesh.triangles.push_back(face);
   }
-  if (options.drop_degenerate_faces) repaired.dropped_degenerate += drop_hanging_slivers(repaired.mesh);
+  if (options.drop_degenerate_faces)
+    repaired.dropped_degenerate += drop_hanging_slivers(repaired.mesh);
 
   if (options.orient) {
     const std::vector<Triangle> before = repaired.mesh.triangles;
@@ -153,8 +156,9 @@ Result<Repaired> repair(const TriangleMesh& mesh, const RepairOptions& options) 
 }
 
 std::string Repaired::text() const {
-  std::string text = std::to_string(welded_vertices) + " vertices welded, " + std::to_string(dropped_degenerate) +
-                     " degenerate and " + std::to_string(dropped_duplicate) + " duplicate faces dropped, " +
+  std::string text = std::to_string(welded_vertices) + " vertices welded, " +
+                     std::to_string(dropped_degenerate) + " degenerate and " +
+                     std::to_string(dropped_duplicate) + " duplicate faces dropped, " +
                      std::to_string(flipped_faces) + " faces turned";
   if (!orientable) text += "; part of the surface is one-sided";
   return text;

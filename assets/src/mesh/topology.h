@@ -12,8 +12,8 @@ namespace plumb::inline PLUMB_ABI::assets::detail {
 
 // Vertices gathered into places.
 struct Places {
-  std::vector<std::uint32_t> place_of;          // of each vertex
-  std::vector<Eigen::Vector3d> positions;       // [m] of each place, that of its first vertex
+  std::vector<std::uint32_t> place_of;     // of each vertex
+  std::vector<Eigen::Vector3d> positions;  // [m] of each place, that of its first vertex
 };
 
 // tolerance [m] >= 0; 0 gathers vertices at exactly the same place (-0 equals 0). With a tolerance,
@@ -24,12 +24,13 @@ Places gather_places(const std::vector<Eigen::Vector3d>& vertices, double tolera
 struct EdgeUse {
   std::uint32_t low, high;  // places, low < high
   std::uint32_t face;
-  std::uint8_t corner;      // the edge runs from this corner to the next
-  bool forward;             // from low to high
+  std::uint8_t corner;  // the edge runs from this corner to the next
+  bool forward;         // from low to high
 };
 
-// All sides of the faces, sorted so that the uses of an edge stand together. Sides that join a place
-// to itself are left out (a face of repeated vertices has two opposite uses of the same edge left).
+// All sides of the faces, sorted so that the uses of an edge stand together. Sides that join a
+// place to itself are left out (a face of repeated vertices has two opposite uses of the same edge
+// left).
 std::vector<EdgeUse> sorted_edge_uses(const std::vector<Triangle>& faces);
 
 // Calls visit(begin, end) for the uses of each edge.
@@ -37,7 +38,9 @@ template <class Visit>
 void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
   for (std::size_t begin = 0; begin < uses.size();) {
     std::size_t end = begin + 1;
-    while (end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high) ++end;
+    while (end < uses.size() && uses[end].low == uses[begin].low &&
+           uses[end].high == uses[begin].high)
+      ++end;
     visit(begin, end);
     begin = end;
   }

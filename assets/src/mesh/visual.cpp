@@ -1,9 +1,8 @@
 #include "plumb/assets/visual.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
-
-#include <Eigen/Geometry>
 
 #include "mesh/topology.h"
 
@@ -29,10 +28,11 @@ VisualMesh visual_mesh(const TriangleMesh& mesh, const VisualOptions& options) {
   std::vector<Vector3d> normals;
   for (const Triangle& t : mesh.triangles) {
     bool usable = true;
-    for (const std::uint32_t v : t) usable = usable && v < mesh.vertices.size() && mesh.vertices[v].allFinite();
+    for (const std::uint32_t v : t)
+      usable = usable && v < mesh.vertices.size() && mesh.vertices[v].allFinite();
     if (!usable) continue;
-    const Vector3d normal =
-        (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    const Vector3d normal = (mesh.vertices[t[1]] - mesh.vertices[t[0]])
+                                .cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
     if (!(normal.norm() > 0)) continue;
     const auto first = static_cast<std::uint32_t>(vertices.size());
     for (const std::uint32_t v : t) vertices.push_back(mesh.vertices[v]);
@@ -45,8 +45,8 @@ VisualMesh visual_mesh(const TriangleMesh& mesh, const VisualOptions& options) {
     corners_at[places.place_of[corner]].push_back(corner);
   }
 
-  // Around each place: corners with the same smoothed normal become one vertex. Normals are weighted
-  // by the angle of the corner, which does not depend on how a flat face is cut.
+  // Around each place: corners with the same smoothed normal become one vertex. Normals are
+  // weighted by the angle of the corner, which does not depend on how a flat face is cut.
   const double cosine = std::cos(options.crease_angle);
   VisualMesh visual;
   std::vector<std::uint32_t> number(vertices.size(), 0);
@@ -59,7 +59,9 @@ VisualMesh visual_mesh(const TriangleMesh& mesh, const VisualOptions& options) {
         const Vector3d& normal = normals[other / 3];
         if (normal.dot(own) < cosine) continue;
         const std::uint32_t base = other - other % 3, k = other % 3;
-        sum += angle_at(vertices[other], vertices[base + (k + 1) % 3], vertices[base + (k + 2) % 3]) * normal;
+        sum +=
+            angle_at(vertices[other], vertices[base + (k + 1) % 3], vertices[base + (k + 2) % 3]) *
+            normal;
       }
       const Vector3d smooth = sum.norm() > 0 ? Vector3d(sum.normalized()) : own;
       std::size_t match = 0;
@@ -72,7 +74,8 @@ VisualMesh visual_mesh(const TriangleMesh& mesh, const VisualOptions& options) {
       number[corner] = made[match].second;
     }
   }
-  for (const Triangle& face : faces) visual.triangles.push_back({number[face[0]], number[face[1]], number[face[2]]});
+  for (const Triangle& face : faces)
+    visual.triangles.push_back({number[face[0]], number[face[1]], number[face[2]]});
   return visual;
 }
 

@@ -13,10 +13,12 @@ Result<MassProperties> to_physics(const MeshMass& mass) {
   return properties;
 }
 
-Result<std::shared_ptr<const HullGeometry>> to_physics(const HullMesh& hull, const Eigen::Vector3d& origin) {
+Result<std::shared_ptr<const HullGeometry>> to_physics(const HullMesh& hull,
+                                                       const Eigen::Vector3d& origin) {
   std::vector<Vec3> vertices;
   std::vector<std::uint32_t> sizes, indices;
-  for (const Eigen::Vector3d& vertex : hull.vertices) vertices.push_back((vertex - origin).cast<Real>());
+  for (const Eigen::Vector3d& vertex : hull.vertices)
+    vertices.push_back((vertex - origin).cast<Real>());
   for (const std::vector<std::uint32_t>& face : hull.faces) {
     sizes.push_back(static_cast<std::uint32_t>(face.size()));
     indices.insert(indices.end(), face.begin(), face.end());

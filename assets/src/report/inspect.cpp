@@ -5,8 +5,9 @@
 namespace plumb::inline PLUMB_ABI::assets {
 
 Result<MeshInspection> inspect_mesh_file(const std::string& path, const InspectOptions& options) {
-  Result<Imported> imported = options.guarded ? import_mesh_guarded(path, options.import, options.time_limit)
-                                              : import_mesh(path, options.import);
+  Result<Imported> imported = options.guarded
+                                  ? import_mesh_guarded(path, options.import, options.time_limit)
+                                  : import_mesh(path, options.import);
   if (!imported) return Error{imported.error()};
   MeshInspection inspection;
   inspection.mesh = std::move(imported.value().mesh);

@@ -13,7 +13,9 @@ Json rows_json(const Eigen::Matrix3d& m) {
   return {vector_json(m.row(0)), vector_json(m.row(1)), vector_json(m.row(2))};
 }
 
-Json genus_json(const std::optional<std::int64_t>& genus) { return genus ? Json(*genus) : Json(nullptr); }
+Json genus_json(const std::optional<std::int64_t>& genus) {
+  return genus ? Json(*genus) : Json(nullptr);
+}
 
 Json import_json(const ImportReport& r) {
   return {{"file", r.file},
@@ -49,42 +51,43 @@ Json certificate_json(const MeshCertificate& c) {
                         {"text", finding.text},
                         {"remedy", finding.remedy}});
   }
-  return {{"solid", c.solid},
-          {"bounds", {{"lower", vector_json(c.bounds.lower)}, {"upper", vector_json(c.bounds.upper)}}},
-          {"vertices", c.vertices},
-          {"triangles", c.triangles},
-          {"non_finite_vertices", c.non_finite_vertices},
-          {"out_of_range_triangles", c.out_of_range_triangles},
-          {"unused_vertices", c.unused_vertices},
-          {"duplicate_vertices", c.duplicate_vertices},
-          {"duplicate_faces", c.duplicate_faces},
-          {"degenerate_faces", c.degenerate_faces},
-          {"surface_vertices", c.surface_vertices},
-          {"edges", c.edges},
-          {"boundary_edges", c.boundary_edges},
-          {"non_manifold_edges", c.non_manifold_edges},
-          {"inconsistent_edges", c.inconsistent_edges},
-          {"non_manifold_vertices", c.non_manifold_vertices},
-          {"closed", c.closed},
-          {"consistently_oriented", c.consistently_oriented},
-          {"orientable", c.orientable},
-          {"manifold", c.manifold},
-          {"inside_out", c.inside_out},
-          {"euler_characteristic", c.euler_characteristic},
-          {"genus", genus_json(c.genus)},
-          {"cavities", c.cavities},
-          {"components", std::move(components)},
-          {"embedding", name_of(c.embedding)},
-          {"crossing_pairs", c.crossing_pairs},
-          {"touching_pairs", c.touching_pairs},
-          {"crossing_count_complete", c.crossing_count_complete},
-          {"crossing_examples", c.crossing_examples},
-          {"winding_min", c.winding_min},
-          {"winding_max", c.winding_max},
-          {"winding_samples", c.winding_samples},
-          {"area", c.area},
-          {"signed_volume", c.signed_volume},
-          {"findings", std::move(findings)}};
+  return {
+      {"solid", c.solid},
+      {"bounds", {{"lower", vector_json(c.bounds.lower)}, {"upper", vector_json(c.bounds.upper)}}},
+      {"vertices", c.vertices},
+      {"triangles", c.triangles},
+      {"non_finite_vertices", c.non_finite_vertices},
+      {"out_of_range_triangles", c.out_of_range_triangles},
+      {"unused_vertices", c.unused_vertices},
+      {"duplicate_vertices", c.duplicate_vertices},
+      {"duplicate_faces", c.duplicate_faces},
+      {"degenerate_faces", c.degenerate_faces},
+      {"surface_vertices", c.surface_vertices},
+      {"edges", c.edges},
+      {"boundary_edges", c.boundary_edges},
+      {"non_manifold_edges", c.non_manifold_edges},
+      {"inconsistent_edges", c.inconsistent_edges},
+      {"non_manifold_vertices", c.non_manifold_vertices},
+      {"closed", c.closed},
+      {"consistently_oriented", c.consistently_oriented},
+      {"orientable", c.orientable},
+      {"manifold", c.manifold},
+      {"inside_out", c.inside_out},
+      {"euler_characteristic", c.euler_characteristic},
+      {"genus", genus_json(c.genus)},
+      {"cavities", c.cavities},
+      {"components", std::move(components)},
+      {"embedding", name_of(c.embedding)},
+      {"crossing_pairs", c.crossing_pairs},
+      {"touching_pairs", c.touching_pairs},
+      {"crossing_count_complete", c.crossing_count_complete},
+      {"crossing_examples", c.crossing_examples},
+      {"winding_min", c.winding_min},
+      {"winding_max", c.winding_max},
+      {"winding_samples", c.winding_samples},
+      {"area", c.area},
+      {"signed_volume", c.signed_volume},
+      {"findings", std::move(findings)}};
 }
 
 Json mass_json(const MeshMass& m) {

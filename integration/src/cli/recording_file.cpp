@@ -16,7 +16,7 @@ struct RecordingFile::State {
   replay::Recorder recorder;
   std::string path, partial;
   std::uint64_t bytes = 0;
-  replay::RecorderCost cost;  // kept, because a closed recorder has none
+  replay::RecorderCost cost;  // of the steps, without closing the file
 };
 
 std::string RecordingFile::open(const std::string& path, const assets::Scene& scene,

@@ -18,9 +18,9 @@
 namespace plumb::inline PLUMB_ABI {
 namespace replay {
 
-class Recorder::Session {
+class Recorder::Run {
  public:
-  explicit Session(const RecorderOptions& options)
+  explicit Run(const RecorderOptions& options)
       : options_(options), text_log_(options.event_lines_per_step) {}
 
   Outcome open();
@@ -84,7 +84,7 @@ class Stopwatch {
 
 }  // namespace
 
-Outcome Recorder::Session::open() {
+Outcome Recorder::Run::open() {
   const auto refuse = [](const char* why) { return Outcome::failed(why); };
   if (options_.path.empty()) return refuse("the recording has no path");
   if (options_.snapshot_every < 1) return refuse("snapshot_every must be at least 1");
@@ -95,23 +95,23 @@ Outcome Recorder::Session::open() {
   return writer_.open(options_.path, options_.application_id, name);
 }
 
-void Recorder::Session::fail(std::string why) {
+void Recorder::Run::fail(std::string why) {
   if (failed_.ok()) failed_ = Outcome::failed(std::move(why));
 }
 
-detail::Frame Recorder::Session::frame_of(const PhysicsWorld& world) {
+detail::Frame Recorder::Run::frame_of(const PhysicsWorld& world) {
   world.copy_body_states(states_);
   return {world, world.step_count(), world.time(), states_};
 }
 
-void Recorder::Session::send_looks(const detail::Frame& frame) {
+void Recorder::Run::send_looks(const detail::Frame& frame) {
   extent_ = detail::extent_of(frame);
   detail::send_layout(writer_, extent_, options_);
   if (options_.contacts) contacts_.send_looks(writer_, frame, extent_);
   if (options_.plots) plots_.send_names(writer_);
 }
 
-void Recorder::Session::attach(const PhysicsWorld& world) {
+void Recorder::Run::attach(const PhysicsWorld& world) {
   if (!status().ok()) return;
   if (attached_) return fail("this recorder has recorded a world already: use a new one");
   attached_ = true;
@@ -126,7 +126,7 @@ void Recorder::Session::attach(const PhysicsWorld& world) {
 }
 
 // Whether something was done that changes what is to be drawn, or where what never moves stands.
-bool Recorder::Session::scene_changed(std::span<const InputRecord> inputs) const {
+bool Recorder::Run::scene_changed(std::span<const InputRecord> inputs) const {
   for (const InputRecord& input : inputs) {
     switch (input.kind) {
       case InputKind::CreateBody:
@@ -148,7 +148,7 @@ bool Recorder::Session::scene_changed(std::span<const InputRecord> inputs) const
   return false;
 }
 
-void Recorder::Session::step(const StepView& view) {
+void Recorder::Run::step(const StepView& view) {
   if (!attached_ || !status().ok()) return;
   replay_.add_inputs(view.inputs);
   const detail::Frame frame = frame_of(view.world);
@@ -180,7 +180,7 @@ void Recorder::Session::step(const StepView& view) {
   }
 }
 
-void Recorder::Session::send() {
+void Recorder::Run::send() {
   rows_ = 0;
   replay_.send(writer_);
   bodies_.send(writer_);
@@ -192,64 +192,64 @@ void Recorder::Session::send() {
 
 Recorder::Recorder() = default;
 Recorder::~Recorder() {
-  if (session_) (void)close();
+  if (run_) (void)close();
 }
 Recorder::Recorder(Recorder&&) noexcept = default;
 Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 
 Outcome Recorder::open(const RecorderOptions& options) {
-  if (session_ && session_->writer_.is_open())
+  if (run_ && run_->writer_.is_open())
     return Outcome::failed("a recording is open already: close it first");
-  session_ = std::make_unique<Session>(options);
-  return session_->open();
+  run_ = std::make_unique<Run>(options);
+  return run_->open();
 }
 
 void Recorder::show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh) {
-  if (session_) session_->visuals_.show_as(body, std::move(mesh));
+  if (run_) run_->visuals_.show_as(body, std::move(mesh));
 }
 
 Outcome Recorder::flush(double timeout, bool durable) {
-  if (!session_) return Outcome::failed("no recording is open");
-  session_->send();
-  const Outcome flushed = session_->writer_.flush(timeout, durable);
-  return flushed.ok() ? session_->status() : flushed;
+  if (!run_) return Outcome::failed("no recording is open");
+  run_->send();
+  const Outcome flushed = run_->writer_.flush(timeout, durable);
+  return flushed.ok() ? run_->status() : flushed;
 }
 
 Outcome Recorder::close(double timeout) {
-  if (!session_) return Outcome::failed("no recording is open");
-  if (!session_->writer_.is_open()) return session_->status();
-  session_->send();
-  const Outcome closed = session_->writer_.close(timeout);
-  return closed.ok() ? session_->status() : closed;
+  if (!run_) return Outcome::failed("no recording is open");
+  if (!run_->writer_.is_open()) return run_->status();
+  run_->send();
+  const Outcome closed = run_->writer_.close(timeout);
+  return closed.ok() ? run_->status() : closed;
 }
 
 Outcome Recorder::status() const {
-  return session_ ? session_->status() : Outcome::failed("no recording is open");
+  return run_ ? run_->status() : Outcome::failed("no recording is open");
 }
 
-RecorderCost Recorder::cost() const { return session_ ? session_->cost_ : RecorderCost{}; }
+RecorderCost Recorder::cost() const { return run_ ? run_->cost_ : RecorderCost{}; }
 
 std::uint64_t Recorder::bytes_written() const {
-  return session_ ? session_->writer_.bytes_written() : 0;
+  return run_ ? run_->writer_.bytes_written() : 0;
 }
 
 // Nothing that recording lacks, memory least of all, may pass into the step that is being recorded.
 void Recorder::on_attach(const PhysicsWorld& world) {
-  if (!session_) return;
+  if (!run_) return;
   try {
-    session_->attach(world);
+    run_->attach(world);
   } catch (const std::exception& error) {
-    session_->fail(std::string("recording stopped: ") + error.what());
+    run_->fail(std::string("recording stopped: ") + error.what());
   }
 }
 
 void Recorder::on_step(const StepView& view) {
-  if (!session_) return;
-  const Stopwatch stopwatch(session_->cost_);
+  if (!run_) return;
+  const Stopwatch stopwatch(run_->cost_);
   try {
-    session_->step(view);
+    run_->step(view);
   } catch (const std::exception& error) {
-    session_->fail(std::string("recording stopped: ") + error.what());
+    run_->fail(std::string("recording stopped: ") + error.what());
   }
 }
 

@@ -6,24 +6,23 @@
 #include <span>
 #include <vector>
 
-#include "plumb/math.h"
-
 #include "plumb/assets/mesh.h"
 #include "plumb/assets/result.h"
+#include "plumb/math.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 
 // A convex polyhedron: outward polygon faces, counter-clockwise seen from outside.
 struct HullMesh {
-  std::vector<Eigen::Vector3d> vertices;           // [m]
-  std::vector<std::vector<std::uint32_t>> faces;   // at least 3 vertices each
+  std::vector<Eigen::Vector3d> vertices;          // [m]
+  std::vector<std::vector<std::uint32_t>> faces;  // at least 3 vertices each
   // The farthest that any input point stands out of any face plane [m]; about the merge width.
   double max_outside = 0;
   // What simplification cost: the farthest that a left-out hull vertex lies outside, and the share
   // of the volume lost.
-  std::size_t full_vertex_count = 0;               // of the hull before simplification
-  double simplification_distance = 0;              // [m]
-  double simplification_volume_loss = 0;           // relative
+  std::size_t full_vertex_count = 0;      // of the hull before simplification
+  double simplification_distance = 0;     // [m]
+  double simplification_volume_loss = 0;  // relative
 };
 
 struct HullOptions {
@@ -38,7 +37,8 @@ inline constexpr std::size_t kColliderHullVertices = 64;
 
 // Points [m]. Fails with a clear text on fewer than 4 points, non-finite points, and points that
 // lie in one point, on one line or in one plane.
-Result<HullMesh> convex_hull(std::span<const Eigen::Vector3d> points, const HullOptions& options = {});
+Result<HullMesh> convex_hull(std::span<const Eigen::Vector3d> points,
+                             const HullOptions& options = {});
 
 // The polygons cut into triangles.
 TriangleMesh triangulated(const HullMesh& hull);

@@ -25,7 +25,8 @@ struct ImportOptions {
   Axis world_up = Axis::Y;
   std::uint64_t max_file_bytes = std::uint64_t{2} << 30;
   std::size_t max_triangles = 20'000'000;
-  // What the reading process of import_mesh_guarded may take [byte]; a small file can ask for any amount.
+  // What the reading process of import_mesh_guarded may take [byte]; a small file can ask for any
+  // amount.
   std::uint64_t max_memory_bytes = std::uint64_t{4} << 30;
 };
 
@@ -33,18 +34,18 @@ enum class Origin { File, Format, Option, Unknown };  // where a unit or an axis
 
 struct ImportReport {
   std::string file;
-  std::string format;                 // as the reader names it
-  double metres_per_unit = 1;         // [m]
+  std::string format;          // as the reader names it
+  double metres_per_unit = 1;  // [m]
   Origin unit_origin = Origin::Unknown;
   Axis file_up = Axis::Y;
   Origin up_origin = Origin::Unknown;
   Axis world_up = Axis::Y;
-  std::size_t parts = 0;              // meshes placed by nodes, instances counted
-  std::size_t mirrored_parts = 0;     // placed by a reflecting transform: their faces were turned
-  std::size_t skinned_parts = 0;      // have bones: taken in bind pose
-  std::size_t dropped_points = 0;     // faces of one vertex
-  std::size_t dropped_lines = 0;      // faces of two
-  double coordinate_rounding = 0;     // [m] the reader hands out single precision
+  std::size_t parts = 0;           // meshes placed by nodes, instances counted
+  std::size_t mirrored_parts = 0;  // placed by a reflecting transform: their faces were turned
+  std::size_t skinned_parts = 0;   // have bones: taken in bind pose
+  std::size_t dropped_points = 0;  // faces of one vertex
+  std::size_t dropped_lines = 0;   // faces of two
+  double coordinate_rounding = 0;  // [m] the reader hands out single precision
   std::vector<std::string> notes;
 };
 
@@ -58,8 +59,8 @@ struct Imported {
 Result<Imported> import_mesh(const std::string& path, const ImportOptions& options = {});
 
 // In a child process with a time limit [s] > 0, so that a crash, a hang or a
-// flood of memory inside a reader is an error like any other. Forks: call it from tools, not from a game with threads. Where the system
-// has no fork it fails and says so.
+// flood of memory inside a reader is an error like any other. Forks: call it from tools, not from a
+// game with threads. Where the system has no fork it fails and says so.
 Result<Imported> import_mesh_guarded(const std::string& path, const ImportOptions& options = {},
                                      double time_limit = 60);
 

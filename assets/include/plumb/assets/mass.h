@@ -6,11 +6,10 @@
 
 #include <string>
 
-#include "plumb/math.h"
-
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/mesh.h"
 #include "plumb/assets/result.h"
+#include "plumb/math.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 
@@ -23,10 +22,10 @@ enum class MassMethod {
 
 struct MassOptions {
   MassMethod method = MassMethod::Solid;
-  double density = 1000;        // [kg/m^3] > 0
-  double total_mass = 0;        // [kg] > 0: overrides the density; 0 = use the density
-  double shell_thickness = 0;   // [m] > 0 for Shell
-  int voxel_resolution = 64;    // cubes along the longest side, 8 .. 512
+  double density = 1000;       // [kg/m^3] > 0
+  double total_mass = 0;       // [kg] > 0: overrides the density; 0 = use the density
+  double shell_thickness = 0;  // [m] > 0 for Shell
+  int voxel_resolution = 64;   // cubes along the longest side, 8 .. 512
 };
 
 // What the numbers may be off by, for the polyhedron as given. How well a polyhedron
@@ -40,15 +39,16 @@ struct MassError {
 
 struct MeshMass {
   MassMethod method = MassMethod::Solid;
-  double volume = 0;                                             // [m^3] of material
-  double area = 0;                                               // [m^2] of the surface used
-  double density = 0;                                            // [kg/m^3]
-  double mass = 0;                                               // [kg]
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();              // [m] centre of mass, mesh frame
-  Eigen::Matrix3d I_Bcm_B = Eigen::Matrix3d::Zero();             // [kg m^2] about the centre, mesh axes, minus signs in
-  Eigen::Vector3d principal_moments = Eigen::Vector3d::Zero();   // [kg m^2] ascending
-  Eigen::Matrix3d R_BP = Eigen::Matrix3d::Identity();            // principal axes as columns, right-handed
-  double inertia_condition = 0;                                  // largest over smallest principal moment
+  double volume = 0;                                 // [m^3] of material
+  double area = 0;                                   // [m^2] of the surface used
+  double density = 0;                                // [kg/m^3]
+  double mass = 0;                                   // [kg]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // [m] centre of mass, mesh frame
+  Eigen::Matrix3d I_Bcm_B =
+      Eigen::Matrix3d::Zero();  // [kg m^2] about the centre, mesh axes, minus signs in
+  Eigen::Vector3d principal_moments = Eigen::Vector3d::Zero();  // [kg m^2] ascending
+  Eigen::Matrix3d R_BP = Eigen::Matrix3d::Identity();  // principal axes as columns, right-handed
+  double inertia_condition = 0;                        // largest over smallest principal moment
   // (I1 + I2 - I3) / I3 of the ascending moments; a body has >= 0, a flat plate has 0.
   double triangle_margin = 0;
   MassError error;

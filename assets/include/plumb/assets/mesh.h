@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "plumb/math.h"
-
 #include "plumb/precision.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 
-using Triangle = std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise seen from outside
+using Triangle =
+    std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise seen from outside
 
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;  // [m]

@@ -11,10 +11,10 @@
 namespace plumb::inline PLUMB_ABI::assets {
 
 struct RepairOptions {
-  double weld_tolerance = 0;           // [m] >= 0: vertices nearer than this become one; 0 = equal ones only
-  bool drop_degenerate_faces = true;   // repeated vertices; zero area, unless it fills a T-junction
-  bool drop_duplicate_faces = true;    // keeps the first of each
-  bool orient = false;                 // make neighbours agree, then turn outer surfaces outwards
+  double weld_tolerance = 0;  // [m] >= 0: vertices nearer than this become one; 0 = equal ones only
+  bool drop_degenerate_faces = true;  // repeated vertices; zero area, unless it fills a T-junction
+  bool drop_duplicate_faces = true;   // keeps the first of each
+  bool orient = false;                // make neighbours agree, then turn outer surfaces outwards
 };
 
 struct Repaired {
@@ -28,7 +28,8 @@ struct Repaired {
   [[nodiscard]] std::string text() const;
 };
 
-// Fails for meshes with non-finite vertices or indices out of range: there is nothing to guess from.
+// Fails for meshes with non-finite vertices or indices out of range: there is nothing to guess
+// from.
 Result<Repaired> repair(const TriangleMesh& mesh, const RepairOptions& options = {});
 
 }  // namespace plumb::inline PLUMB_ABI::assets

@@ -17,7 +17,7 @@ struct MeshInspection {
   ImportReport import;
   MeshCertificate certificate;
   std::optional<MeshMass> mass;
-  std::string mass_error;           // why there is no mass
+  std::string mass_error;  // why there is no mass
   std::optional<HullMesh> hull;
   std::string hull_error;
 };
@@ -26,12 +26,13 @@ struct InspectOptions {
   ImportOptions import = {};
   MassOptions mass = {};
   HullOptions hull = {};
-  bool guarded = true;        // read in a child process (import_mesh_guarded)
-  double time_limit = 60;     // [s] of the guarded reading
+  bool guarded = true;     // read in a child process (import_mesh_guarded)
+  double time_limit = 60;  // [s] of the guarded reading
 };
 
 // Fails only if the file cannot be read; what is wrong with the mesh is in the inspection.
-Result<MeshInspection> inspect_mesh_file(const std::string& path, const InspectOptions& options = {});
+Result<MeshInspection> inspect_mesh_file(const std::string& path,
+                                         const InspectOptions& options = {});
 
 // For people: a table of at most 100 columns.
 std::string to_text(const MeshInspection& inspection);

@@ -41,7 +41,9 @@ class [[nodiscard]] Result {
   const T* operator->() const { return &value(); }
 
   // Empty if ok().
-  [[nodiscard]] std::string error() const { return ok() ? std::string() : std::get_if<1>(&data_)->text; }
+  [[nodiscard]] std::string error() const {
+    return ok() ? std::string() : std::get_if<1>(&data_)->text;
+  }
 
  private:
   std::variant<T, Error> data_;

@@ -3,12 +3,11 @@
 
 #include <memory>
 
-#include "plumb/math.h"
-
 #include "plumb/assets/hull.h"
 #include "plumb/assets/mass.h"
 #include "plumb/assets/result.h"
 #include "plumb/mass_properties.h"
+#include "plumb/math.h"
 #include "plumb/shapes.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
@@ -18,7 +17,7 @@ Result<MassProperties> to_physics(const MeshMass& mass);
 
 // In the engine's number type. `origin` [m] becomes (0, 0, 0): the centre of mass where the body's
 // frame is to stand there.
-Result<std::shared_ptr<const HullGeometry>> to_physics(const HullMesh& hull,
-                                                       const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+Result<std::shared_ptr<const HullGeometry>> to_physics(
+    const HullMesh& hull, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 }  // namespace plumb::inline PLUMB_ABI::assets

@@ -5,21 +5,21 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/math.h"
-
 #include "plumb/assets/hull.h"
 #include "plumb/assets/mesh.h"
+#include "plumb/math.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 
 struct VisualMesh {
-  std::vector<std::array<float, 3>> positions;              // [m] relative to the origin given
-  std::vector<std::array<float, 3>> normals;                // [1] unit, one per position
+  std::vector<std::array<float, 3>> positions;  // [m] relative to the origin given
+  std::vector<std::array<float, 3>> normals;    // [1] unit, one per position
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 struct VisualOptions {
-  // The point of the mesh that becomes (0, 0, 0) [m]: the centre of mass where bodies are drawn there.
+  // The point of the mesh that becomes (0, 0, 0) [m]: the centre of mass where bodies are drawn
+  // there.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   // Faces that meet at less than this share their normals; a larger angle stays an edge [rad].
   double crease_angle = 0.6;

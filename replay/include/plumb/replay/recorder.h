@@ -90,8 +90,8 @@ class Recorder final : public StepObserver {
   void on_step(const StepView& view) override;
 
  private:
-  class Session;
-  std::unique_ptr<Session> session_;
+  class Run;
+  std::unique_ptr<Run> run_;
 };
 
 }  // namespace replay
