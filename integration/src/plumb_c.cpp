@@ -25,16 +25,26 @@ using plumb::Real;
 // The numbers of plumb_status are promised to other languages; StatusCode is not.
 plumb_status code_of(plumb::StatusCode code) {
   switch (code) {
-    case plumb::StatusCode::Ok: return PLUMB_OK;
-    case plumb::StatusCode::StaleHandle: return PLUMB_STALE_HANDLE;
-    case plumb::StatusCode::NotFinite: return PLUMB_NOT_FINITE;
-    case plumb::StatusCode::OutOfRange: return PLUMB_OUT_OF_RANGE;
-    case plumb::StatusCode::BadShape: return PLUMB_BAD_SHAPE;
-    case plumb::StatusCode::BadMass: return PLUMB_BAD_MASS;
-    case plumb::StatusCode::WrongMotionType: return PLUMB_WRONG_MOTION_TYPE;
-    case plumb::StatusCode::CapacityExceeded: return PLUMB_CAPACITY_EXCEEDED;
-    case plumb::StatusCode::BadSnapshot: return PLUMB_BAD_SNAPSHOT;
-    case plumb::StatusCode::InsideStep: return PLUMB_INSIDE_STEP;
+    case plumb::StatusCode::Ok:
+      return PLUMB_OK;
+    case plumb::StatusCode::StaleHandle:
+      return PLUMB_STALE_HANDLE;
+    case plumb::StatusCode::NotFinite:
+      return PLUMB_NOT_FINITE;
+    case plumb::StatusCode::OutOfRange:
+      return PLUMB_OUT_OF_RANGE;
+    case plumb::StatusCode::BadShape:
+      return PLUMB_BAD_SHAPE;
+    case plumb::StatusCode::BadMass:
+      return PLUMB_BAD_MASS;
+    case plumb::StatusCode::WrongMotionType:
+      return PLUMB_WRONG_MOTION_TYPE;
+    case plumb::StatusCode::CapacityExceeded:
+      return PLUMB_CAPACITY_EXCEEDED;
+    case plumb::StatusCode::BadSnapshot:
+      return PLUMB_BAD_SNAPSHOT;
+    case plumb::StatusCode::InsideStep:
+      return PLUMB_INSIDE_STEP;
   }
   return PLUMB_OUT_OF_RANGE;
 }
@@ -174,7 +184,9 @@ plumb_status plumb_world_create(const plumb_settings* settings, plumb_world** ou
 
 void plumb_world_destroy(plumb_world* world) { delete world; }
 
-const char* plumb_message(const plumb_world* world) { return world ? world->message : "the world is NULL"; }
+const char* plumb_message(const plumb_world* world) {
+  return world ? world->message : "the world is NULL";
+}
 
 plumb_status plumb_body_create(plumb_world* world, const plumb_body_def* def, plumb_body* out) {
   return guarded(world, [&] {
@@ -196,9 +208,8 @@ plumb_status plumb_body_create(plumb_world* world, const plumb_body_def* def, pl
 }
 
 plumb_status plumb_body_destroy(plumb_world* world, plumb_body body) {
-  return guarded(world, [&] {
-    return pass_on(world, world->world.destroy_body(BodyId::from_value(body)));
-  });
+  return guarded(
+      world, [&] { return pass_on(world, world->world.destroy_body(BodyId::from_value(body))); });
 }
 
 plumb_status plumb_body_set_pose(plumb_world* world, plumb_body body, const double position[3],
@@ -210,7 +221,8 @@ plumb_status plumb_body_set_pose(plumb_world* world, plumb_body body, const doub
   });
 }
 
-plumb_status plumb_body_apply_impulse(plumb_world* world, plumb_body body, const double impulse[3]) {
+plumb_status plumb_body_apply_impulse(plumb_world* world, plumb_body body,
+                                      const double impulse[3]) {
   return guarded(world, [&] {
     if (!impulse) return null_pointer(world);
     return pass_on(world, world->world.apply_impulse(BodyId::from_value(body), vec3(impulse)));
@@ -232,8 +244,8 @@ plumb_status plumb_add_box(plumb_world* world, plumb_body body, const double hal
   });
 }
 
-plumb_status plumb_add_capsule(plumb_world* world, plumb_body body, double half_length, double radius,
-                               const plumb_surface* surface, plumb_collider* out) {
+plumb_status plumb_add_capsule(plumb_world* world, plumb_body body, double half_length,
+                               double radius, const plumb_surface* surface, plumb_collider* out) {
   return guarded(world, [&] {
     const plumb::Capsule capsule{static_cast<Real>(half_length), static_cast<Real>(radius)};
     return add_collider(world, body, capsule, surface, out);

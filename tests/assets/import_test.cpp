@@ -89,17 +89,21 @@ TEST_F(ImportTest, UnitAndAxisCanBeGiven) {
 }
 
 std::string collada_box(const std::string& unit, const std::string& up, const std::string& node) {
-  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><created>2000-01-01T00:00:00Z</created><modified>2000-01-01T00:00:00Z</modified><unit name="u" meter=")" +
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><created>2000-01-01T00:00:00Z</created><modified>2000-01-01T00:00:00Z</modified>
+<unit name="u" meter=")" +
          unit + R"("/><up_axis>)" + up + R"(</up_axis></asset>
 <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="24">
 0 0 0 1 0 0 0 2 0 1 2 0 0 0 3 1 0 3 0 2 3 1 2 3</float_array><technique_common>
-<accessor source="#a" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<accessor source="#a" count="8" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/>
 <param name="Z" type="float"/></accessor></technique_common></source>
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
 <triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>
 0 2 3 0 3 1 4 5 7 4 7 6 0 1 5 0 5 4 2 6 7 2 7 3 0 4 6 0 6 2 1 3 7 1 7 5</p></triangles></mesh></geometry>
-</library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">)" +
+</library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n">)" +
          node + R"(<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
 }

@@ -1,7 +1,5 @@
 // Invariant: the loop turns any sequence of tick times into steps of one length and loses no time:
 // fed = steps * dt + dropped + remainder; what it cannot do it says.
-#include "plumb/integration/fixed_step_loop.h"
-
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "gtest/gtest.h"
+#include "plumb/integration/fixed_step_loop.h"
 
 namespace {
 
@@ -40,8 +39,8 @@ TEST(FixedStepLoop, LosesNoTimeAtAll) {
   EXPECT_EQ(world.step_count(), steps);
 }
 
-// Times and steps that no double can hold exactly: the number of steps is still the exact quotient of
-// the exact sums, found here in whole numbers of 2^-80 s.
+// Times and steps that no double can hold exactly: the number of steps is still the exact quotient
+// of the exact sums, found here in whole numbers of 2^-80 s.
 TEST(FixedStepLoop, CountsStepsAsExactArithmeticDoes) {
   using Wide = unsigned __int128;
   const auto exact = [](double time) {
@@ -122,7 +121,8 @@ TEST(FixedStepLoop, RefusesSettingsOutOfRange) {
   FixedStepLoop loop(world, {.dt = 0.01});
   for (const LoopSettings& bad :
        {LoopSettings{.dt = 0}, LoopSettings{.dt = -1}, LoopSettings{.dt = std::nan("")},
-        LoopSettings{.dt = 1e9}, LoopSettings{.max_steps_per_tick = 0}, LoopSettings{.time_scale = -1},
+        LoopSettings{.dt = 1e9}, LoopSettings{.max_steps_per_tick = 0},
+        LoopSettings{.time_scale = -1},
         LoopSettings{.time_scale = std::numeric_limits<double>::infinity()}}) {
     EXPECT_FALSE(loop.set_settings(bad).ok());
     EXPECT_EQ(loop.settings().dt, 0.01);
@@ -185,7 +185,8 @@ TEST(FixedStepLoop, CallsHooksAroundEveryStepInOrder) {
   EXPECT_EQ(calls, "a0bc1d a1bc2d ");
 }
 
-// A hook that pauses stops the loop after that step; the steps that were due are reported as dropped.
+// A hook that pauses stops the loop after that step; the steps that were due are reported as
+// dropped.
 TEST(FixedStepLoop, HooksCanPause) {
   PhysicsWorld world;
   FixedStepLoop loop(world, {.dt = 1.0 / 64});

@@ -1,5 +1,5 @@
-// Invariant: an engine's transforms follow the bodies, between the last two steps, and only those of
-// bodies that moved are touched.
+// Invariant: an engine's transforms follow the bodies, between the last two steps, and only those
+// of bodies that moved are touched.
 #include "plumb/integration/pose_sync.h"
 
 #include <limits>
@@ -19,7 +19,8 @@ class PoseSyncTest : public testing::Test {
  protected:
   PoseSyncTest() : loop_(world_, {.dt = 1.0 / 64}), sync_(loop_) {}
 
-  BodyId add(std::uint64_t entity, MotionType type, const Pos3& at, const Vec3& velocity = Vec3::Zero()) {
+  BodyId add(std::uint64_t entity, MotionType type, const Pos3& at,
+             const Vec3& velocity = Vec3::Zero()) {
     RigidBody body;
     body.type = type;
     body.pose.position = at;

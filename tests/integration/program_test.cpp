@@ -26,7 +26,8 @@ Outcome plumb(const std::string& arguments) {
   FILE* pipe = popen((std::string(PLUMB_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
   if (!pipe) return outcome;
   char buffer[4096];
-  for (std::size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) outcome.output.append(buffer, n);
+  for (std::size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+    outcome.output.append(buffer, n);
   const int status = pclose(pipe);
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
@@ -39,25 +40,31 @@ bool says(const Outcome& outcome, const std::string& text) {
 // The line of a summary that begins with this word.
 std::string line_of(const Outcome& outcome, const std::string& word) {
   const std::size_t first = outcome.output.find(word);
-  return first == std::string::npos ? "" : outcome.output.substr(first, outcome.output.find('\n', first) - first);
+  return first == std::string::npos
+             ? ""
+             : outcome.output.substr(first, outcome.output.find('\n', first) - first);
 }
 
 class Program : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) /
-              (std::string("plumb_program_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+              (std::string("plumb_program_") +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
-  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string file(const std::string& name) const {
+    return (folder_ / name).string();
+  }
   [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return file(name);
   }
   [[nodiscard]] std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
 
   fs::path folder_;
@@ -121,7 +128,8 @@ TEST_F(Program, NamesTheLineOfAMalformedScene) {
 }
 
 TEST_F(Program, RunsAndSumsUp) {
-  const Outcome run = plumb("run " + kScenes + "stack_of_ten.json --steps 30 --dt 0.01 --substeps 5");
+  const Outcome run =
+      plumb("run " + kScenes + "stack_of_ten.json --steps 30 --dt 0.01 --substeps 5");
   EXPECT_EQ(run.code, 0) << run.output;
   EXPECT_TRUE(says(run, "11 bodies")) << run.output;
   EXPECT_TRUE(says(run, "0.300 s in 30 steps of 10.000 ms, 5 substeps each")) << run.output;
@@ -212,7 +220,8 @@ TEST_F(Program, LeavesNoFileWhereItCannotWrite) {
 
 TEST_F(Program, DoesNotOverwriteTheScene) {
   std::ifstream original(kScenes + "ball_drop.json");
-  const std::string text((std::istreambuf_iterator<char>(original)), std::istreambuf_iterator<char>());
+  const std::string text((std::istreambuf_iterator<char>(original)),
+                         std::istreambuf_iterator<char>());
   const std::string scene = write("scene.json", text);
   EXPECT_EQ(plumb("run -q " + scene + " -o " + scene).code, 2);
   EXPECT_EQ(fs::file_size(scene), text.size());

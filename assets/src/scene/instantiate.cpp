@@ -54,7 +54,8 @@ Result<std::optional<MassProperties>> mass_of_body(const Scene& scene, const Sce
     MassProperties own;
     if (part.mesh.empty()) {
       const ShapeMass shape = mass_of(collider.shape, part.density.value_or(collider.density));
-      if (!shape.status.ok()) return Error{place_of(scene, part.line) + ": " + shape.status.message};
+      if (!shape.status.ok())
+        return Error{place_of(scene, part.line) + ": " + shape.status.message};
       own = shape.properties;
     } else {
       const Result<MassProperties> mesh_mass = meshes.mass_of(part.mesh, part.density);
@@ -66,8 +67,9 @@ Result<std::optional<MassProperties>> mass_of_body(const Scene& scene, const Sce
     sum = sum ? sum->plus(own) : own;
   }
   if (!sum) {
-    return Error{place_of(scene, body.line) + ": body '" + body.name +
-                 "' moves, but its colliders have no mass; give one of them a density or the body a mass"};
+    return Error{
+        place_of(scene, body.line) + ": body '" + body.name +
+        "' moves, but its colliders have no mass; give one of them a density or the body a mass"};
   }
   if (body.mass_scaled_to) sum = sum->scaled_to_mass(*body.mass_scaled_to);
   return sum;
@@ -100,7 +102,8 @@ Result<Template> make_template(const Scene& scene, const SceneBody& body, MeshSt
   return out;
 }
 
-std::string world_error(const Scene& scene, int line, const std::string& name, const Status& status) {
+std::string world_error(const Scene& scene, int line, const std::string& name,
+                        const Status& status) {
   return place_of(scene, line) + ": body '" + name + "': " + status.message;
 }
 

@@ -51,7 +51,8 @@ class LineTable {
   }
   // Of the character at this offset; the first line is 1.
   [[nodiscard]] int line_at(std::size_t offset) const {
-    return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
+    return 1 +
+           static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
   }
 
  private:
@@ -137,7 +138,8 @@ class TreeBuilder {
   }
   bool open(JsonNode::Kind kind) {
     if (open_.size() >= kDeepestNesting) {
-      problems_.add(line(), "brackets are nested deeper than any scene needs", "check the brackets");
+      problems_.add(line(), "brackets are nested deeper than any scene needs",
+                    "check the brackets");
       return false;
     }
     open_.push_back(add(kind));
@@ -168,12 +170,18 @@ const JsonMember* JsonNode::find(std::string_view key) const {
 
 const char* name_of(JsonNode::Kind kind) {
   switch (kind) {
-    case JsonNode::Kind::Null: return "null";
-    case JsonNode::Kind::Boolean: return "true or false";
-    case JsonNode::Kind::Number: return "a number";
-    case JsonNode::Kind::Text: return "a text";
-    case JsonNode::Kind::Array: return "a list";
-    case JsonNode::Kind::Object: return "an object";
+    case JsonNode::Kind::Null:
+      return "null";
+    case JsonNode::Kind::Boolean:
+      return "true or false";
+    case JsonNode::Kind::Number:
+      return "a number";
+    case JsonNode::Kind::Text:
+      return "a text";
+    case JsonNode::Kind::Array:
+      return "a list";
+    case JsonNode::Kind::Object:
+      return "an object";
   }
   return "";
 }

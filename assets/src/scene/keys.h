@@ -14,8 +14,9 @@ using Keys = std::span<const std::string_view>;
 
 namespace keys {
 
-inline constexpr std::string_view kScene[] = {"$schema", "plumb_scene", "name",   "description", "step",
-                                              "settings", "materials",  "meshes", "bodies"};
+inline constexpr std::string_view kScene[] = {"$schema",     "plumb_scene", "name",
+                                              "description", "step",        "settings",
+                                              "materials",   "meshes",      "bodies"};
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
 inline constexpr std::string_view kSettings[] = {
     "gravity",  "substeps",      "contact_frequency", "contact_damping_ratio",
@@ -25,15 +26,26 @@ inline constexpr std::string_view kMaterial[] = {"friction", "restitution", "fri
 inline constexpr std::string_view kMesh[] = {"file",    "metres_per_unit",   "up",     "collision",
                                              "density", "max_hull_vertices", "mass_of"};
 inline constexpr std::string_view kMassOf[] = {"method", "thickness", "resolution"};
-inline constexpr std::string_view kBody[] = {
-    "name",           "type",           "position",        "orientation",  "linear_velocity",
-    "angular_velocity", "linear_damping", "angular_damping", "gravity_scale", "locks",
-    "can_sleep",      "starts_awake",   "mass",            "colliders",    "repeat"};
+inline constexpr std::string_view kBody[] = {"name",
+                                             "type",
+                                             "position",
+                                             "orientation",
+                                             "linear_velocity",
+                                             "angular_velocity",
+                                             "linear_damping",
+                                             "angular_damping",
+                                             "gravity_scale",
+                                             "locks",
+                                             "can_sleep",
+                                             "starts_awake",
+                                             "mass",
+                                             "colliders",
+                                             "repeat"};
 inline constexpr std::string_view kMass[] = {"mass", "center", "inertia"};
 inline constexpr std::string_view kOrientation[] = {"quaternion", "euler_degrees", "axis_angle"};
 inline constexpr std::string_view kCollider[] = {
-    "shape",    "radius",   "half_extents", "half_length", "normal",        "offset",  "mesh",
-    "position", "orientation", "material",  "density",     "layers", "collides_with", "sensor"};
+    "shape",    "radius",      "half_extents", "half_length", "normal", "offset",        "mesh",
+    "position", "orientation", "material",     "density",     "layers", "collides_with", "sensor"};
 inline constexpr std::string_view kRepeat[] = {"count", "spacing", "jitter", "random_orientation",
                                                "seed"};
 
@@ -70,8 +82,8 @@ inline constexpr std::array<ShapeKeys, 5> kShapeKeys{{{"sphere", {"radius", ""}}
 // Words with a fixed meaning, in the order of the enum they stand for.
 inline constexpr std::string_view kMotionTypes[] = {"static", "kinematic", "dynamic"};
 inline constexpr std::string_view kRotationMethods[] = {"exact", "implicit_gyro", "book"};
-inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum", "maximum",
-                                                     "multiply"};
+inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum",
+                                                     "maximum", "multiply"};
 inline constexpr std::string_view kAxes[] = {"x", "y", "z"};
 inline constexpr std::string_view kCollisions[] = {"hull"};
 inline constexpr std::string_view kMassMethods[] = {"solid", "shell", "hull", "voxel"};

@@ -23,14 +23,16 @@ constexpr double kStepRounding = 1e-9;  // relative to one step
 const JsonNode* list_of(const ObjectReader& in, std::string_view key, JsonNode::Kind kind) {
   const JsonNode* node = in.find(key);
   if (!node || node->kind == kind) return node;
-  in.problems().add(node->line, "'" + std::string(key) + "' is " + name_of(node->kind),
-                    kind == JsonNode::Kind::Array ? "write a list, [ ... ]" : "write an object, { ... }");
+  in.problems().add(
+      node->line, "'" + std::string(key) + "' is " + name_of(node->kind),
+      kind == JsonNode::Kind::Array ? "write a list, [ ... ]" : "write an object, { ... }");
   return nullptr;
 }
 
 void read_version(const ObjectReader& in) {
   if (!in.has("plumb_scene")) {
-    in.problems().add(in.line(), "the scene does not say which version of the format it is written in",
+    in.problems().add(in.line(),
+                      "the scene does not say which version of the format it is written in",
                       "add \"plumb_scene\": " + std::to_string(kSceneVersion));
     return;
   }
@@ -64,8 +66,9 @@ void read_bodies(const ObjectReader& in, Scene& scene) {
     for (const int count : body.repeat->count) copies *= count;
     total += copies;
     if (total > static_cast<double>(kMostBodies)) {
-      in.problems().add(body.line, "with '" + body.name + "' the scene has more than " +
-                                       std::to_string(kMostBodies) + " bodies",
+      in.problems().add(body.line,
+                        "with '" + body.name + "' the scene has more than " +
+                            std::to_string(kMostBodies) + " bodies",
                         "lower the count of its repeat");
       return;
     }
@@ -79,7 +82,8 @@ void read_scene(const JsonNode& root, Scene& scene, Problems& problems) {
   in.text("name", scene.name);
   in.text("description", scene.description);
   if (const JsonNode* step = in.find("step")) read_step(*step, scene.step, problems);
-  if (const JsonNode* settings = in.find("settings")) read_settings(*settings, scene.settings, problems);
+  if (const JsonNode* settings = in.find("settings"))
+    read_settings(*settings, scene.settings, problems);
   if (const JsonNode* materials = list_of(in, "materials", JsonNode::Kind::Object)) {
     for (const JsonMember& member : materials->members) {
       SceneMaterial& material = scene.materials.emplace_back();
@@ -111,7 +115,8 @@ Result<Scene> parse(std::string_view text, const std::string& name, const std::s
     std::error_code ignored;
     if (look_for_files && !mesh.file.empty() &&
         !std::filesystem::is_regular_file(mesh.path, ignored)) {
-      problems.add(mesh.line, "the file '" + mesh.path + "' of mesh '" + mesh.name + "' is not there",
+      problems.add(mesh.line,
+                   "the file '" + mesh.path + "' of mesh '" + mesh.name + "' is not there",
                    "correct \"file\", which counts from the folder of the scene");
     }
   }
@@ -137,7 +142,8 @@ const SceneMesh* Scene::find_mesh(std::string_view name_wanted) const {
   return nullptr;
 }
 
-Result<Scene> parse_scene(std::string_view text, const std::string& name, const std::string& folder) {
+Result<Scene> parse_scene(std::string_view text, const std::string& name,
+                          const std::string& folder) {
   return parse(text, name, folder, false);
 }
 

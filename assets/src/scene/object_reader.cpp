@@ -86,7 +86,8 @@ bool ObjectReader::number(std::string_view key, double& out, const Range& range)
 
 bool ObjectReader::integer(std::string_view key, int& out, int lower, int upper) const {
   double wide = 0;
-  if (!number(key, wide, {static_cast<double>(lower), static_cast<double>(upper), false})) return false;
+  if (!number(key, wide, {static_cast<double>(lower), static_cast<double>(upper), false}))
+    return false;
   if (wide != std::floor(wide)) {
     problems_.add(line_of(key), quoted(key) + " of " + what_ + " is " + printed(wide),
                   "write a whole number");
@@ -146,7 +147,8 @@ bool ObjectReader::vector(std::string_view key, Eigen::Vector3d& out, const Rang
 bool ObjectReader::choice(std::string_view key, Keys words, std::size_t& out) const {
   const JsonNode* value = find(key);
   if (!value) return false;
-  if (value->kind != JsonNode::Kind::Text) return wrong_kind(key, *value, "one of " + joined(words));
+  if (value->kind != JsonNode::Kind::Text)
+    return wrong_kind(key, *value, "one of " + joined(words));
   const auto found = std::find(words.begin(), words.end(), value->text);
   if (found == words.end()) {
     problems_.add(value->line, quoted(key) + " of " + what_ + " is '" + value->text + "'",

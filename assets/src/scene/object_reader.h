@@ -1,15 +1,14 @@
-// Typed access to the members of a JSON object. Every method leaves its target alone when the key is
-// absent, and notes a problem with line and remedy when the value does not fit.
+// Typed access to the members of a JSON object. Every method leaves its target alone when the key
+// is absent, and notes a problem with line and remedy when the value does not fit.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
-
-#include <Eigen/Core>
 
 #include "scene/json_tree.h"
 #include "scene/keys.h"
@@ -59,7 +58,8 @@ class ObjectReader {
   }
   template <class T>
     requires std::is_same_v<T, float>
-  bool vector(std::string_view key, Eigen::Matrix<T, 3, 1>& out, const Range& range = kAnyNumber) const {
+  bool vector(std::string_view key, Eigen::Matrix<T, 3, 1>& out,
+              const Range& range = kAnyNumber) const {
     Eigen::Vector3d wide;
     if (!vector(key, wide, range)) return false;
     out = wide.cast<T>();

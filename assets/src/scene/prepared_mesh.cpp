@@ -79,8 +79,8 @@ void MeshStore::move_into(SceneInstance& instance) {
     if (out.hull_excess > kNotableHullExcess) {
       char text[64];
       std::snprintf(text, sizeof text, "%.0f %% more volume", 100 * out.hull_excess);
-      instance.notes.push_back("mesh '" + out.name + "' collides as its convex hull, which has " + text +
-                               " than the mesh");
+      instance.notes.push_back("mesh '" + out.name + "' collides as its convex hull, which has " +
+                               text + " than the mesh");
     }
   }
   meshes_.clear();

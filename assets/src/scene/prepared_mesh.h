@@ -1,5 +1,5 @@
-// The meshes of a scene, each read and turned into a hull once, when the first body asks for it; its
-// mass only when a moving body needs it.
+// The meshes of a scene, each read and turned into a hull once, when the first body asks for it;
+// its mass only when a moving body needs it.
 #pragma once
 
 #include <memory>

@@ -20,7 +20,8 @@ void read_layers(const ObjectReader& in, std::string_view key, std::uint32_t& bi
     if (good) read |= std::uint32_t{1} << item.integer;
   }
   if (!good) {
-    in.problems().add(node->line, "'" + std::string(key) + "' of " + in.what() + " is not a list of layers",
+    in.problems().add(node->line,
+                      "'" + std::string(key) + "' of " + in.what() + " is not a list of layers",
                       "write a list of layer numbers from 0 to 31, for example [0, 3]");
     return;
   }
@@ -55,8 +56,10 @@ void read_mass(const ObjectReader& in, SceneBody& body) {
     double mass = 0;
     if (!in.number("mass", mass, kPositive)) return;
     if (!in.has("colliders")) {
-      in.problems().add(node->line, "'mass' of " + in.what() + " is a number, but it has no colliders "
-                                    "to spread it over",
+      in.problems().add(node->line,
+                        "'mass' of " + in.what() +
+                            " is a number, but it has no colliders "
+                            "to spread it over",
                         "write an object with mass, center and inertia, or add colliders");
       return;
     }
@@ -107,8 +110,9 @@ void need(const ObjectReader& in, std::string_view key, const std::string& remed
 }
 
 void read_shape(const ObjectReader& in, const Scene& scene, SceneCollider& collider) {
-  constexpr std::string_view kShapes[] = {kShapeKeys[0].shape, kShapeKeys[1].shape, kShapeKeys[2].shape,
-                                          kShapeKeys[3].shape, kShapeKeys[4].shape};
+  constexpr std::string_view kShapes[] = {kShapeKeys[0].shape, kShapeKeys[1].shape,
+                                          kShapeKeys[2].shape, kShapeKeys[3].shape,
+                                          kShapeKeys[4].shape};
   std::size_t which = 0;
   need(in, "shape", "use one of " + joined(kShapes));
   if (!in.choice("shape", kShapes, which)) return;
@@ -153,8 +157,9 @@ void read_shape(const ObjectReader& in, const Scene& scene, SceneCollider& colli
       if (!in.text("mesh", collider.mesh) || scene.find_mesh(collider.mesh)) break;
       std::vector<std::string_view> names;
       for (const SceneMesh& mesh : scene.meshes) names.push_back(mesh.name);
-      in.problems().add(in.line_of("mesh"), "there is no mesh '" + collider.mesh + "'",
-                        names.empty() ? "describe it under \"meshes\"" : suggestion(collider.mesh, names));
+      in.problems().add(
+          in.line_of("mesh"), "there is no mesh '" + collider.mesh + "'",
+          names.empty() ? "describe it under \"meshes\"" : suggestion(collider.mesh, names));
     }
   }
 }
@@ -174,9 +179,9 @@ void read_surface(const ObjectReader& in, const Scene& scene, SceneCollider& col
     collider.collider.material = material.material;
     return;
   }
-  in.problems().add(node->line, "there is no material '" + collider.material + "'",
-                    names.empty() ? "describe it under \"materials\""
-                                  : suggestion(collider.material, names));
+  in.problems().add(
+      node->line, "there is no material '" + collider.material + "'",
+      names.empty() ? "describe it under \"materials\"" : suggestion(collider.material, names));
 }
 
 }  // namespace
@@ -189,7 +194,8 @@ void read_collider(const JsonNode& node, const std::string& what, const Scene& s
   read_shape(in, scene, collider);
   in.vector("position", collider.collider.pose.position);
   Eigen::Quaterniond orientation;
-  if (read_orientation(in, orientation)) collider.collider.pose.orientation = orientation.cast<Real>();
+  if (read_orientation(in, orientation))
+    collider.collider.pose.orientation = orientation.cast<Real>();
   read_surface(in, scene, collider);
   double density = 0;
   if (in.number("density", density, kNotNegative)) {
@@ -240,11 +246,13 @@ void read_body(const JsonNode& node, const Scene& scene, SceneBody& body, Proble
   }
   for (std::size_t k = 0; k < colliders->items.size(); ++k) {
     SceneCollider& collider = body.colliders.emplace_back();
-    read_collider(colliders->items[k], "collider " + std::to_string(k) + " of " + what, scene, collider,
-                  problems);
-    if (out.type != MotionType::Static && std::holds_alternative<HalfSpace>(collider.collider.shape)) {
-      problems.add(collider.line, what + " moves, but its collider " + std::to_string(k) +
-                                      " is a half-space, which has no end",
+    read_collider(colliders->items[k], "collider " + std::to_string(k) + " of " + what, scene,
+                  collider, problems);
+    if (out.type != MotionType::Static &&
+        std::holds_alternative<HalfSpace>(collider.collider.shape)) {
+      problems.add(collider.line,
+                   what + " moves, but its collider " + std::to_string(k) +
+                       " is a half-space, which has no end",
                    "write \"type\": \"static\" or use another shape");
     }
   }

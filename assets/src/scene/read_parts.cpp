@@ -16,9 +16,9 @@ constexpr int kCoarsestVoxels = 8;
 constexpr int kFinestVoxels = 512;
 constexpr int kMostSubsteps = 64;
 // Steps shorter or longer than these, and longer runs, are slips of a unit.
-constexpr Range kStepRange{1e-9, 1e3, false};      // [s]
-constexpr Range kRateRange{1e-3, 1e9, false};      // [1/s]
-constexpr Range kDurationRange{0, 1e9, false};     // [s]
+constexpr Range kStepRange{1e-9, 1e3, false};   // [s]
+constexpr Range kRateRange{1e-3, 1e9, false};   // [1/s]
+constexpr Range kDurationRange{0, 1e9, false};  // [s]
 
 Eigen::Quaterniond about(const Eigen::Vector3d& axis, double degrees) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kRadiansPerDegree, axis));
@@ -82,9 +82,10 @@ void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, P
   if (in.choice("up", kAxes, up)) mesh.up = up;
   in.choice("collision", kCollisions, mesh.collision);
   if (!in.has("collision")) {
-    in.missing("collision",
-               "write \"collision\": \"hull\" to let it collide as its convex hull, the hollows of a "
-               "concave mesh filled");
+    in.missing(
+        "collision",
+        "write \"collision\": \"hull\" to let it collide as its convex hull, the hollows of a "
+        "concave mesh filled");
   }
   int vertices = static_cast<int>(mesh.max_hull_vertices);
   in.integer("max_hull_vertices", vertices, kFewestHullVertices, kMostHullVertices);
@@ -104,11 +105,13 @@ void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, P
       mass.missing("thickness", "give the thickness of the shell in metres");
     }
     if (!shell && mass.has("thickness")) {
-      problems.add(mass.line_of("thickness"), "'thickness' has no meaning unless the method is shell",
+      problems.add(mass.line_of("thickness"),
+                   "'thickness' has no meaning unless the method is shell",
                    "remove it or write \"method\": \"shell\"");
     }
     if (mesh.mass.method != MassMethod::Voxel && mass.has("resolution")) {
-      problems.add(mass.line_of("resolution"), "'resolution' has no meaning unless the method is voxel",
+      problems.add(mass.line_of("resolution"),
+                   "'resolution' has no meaning unless the method is voxel",
                    "remove it or write \"method\": \"voxel\"");
     }
   }
@@ -123,9 +126,10 @@ bool read_orientation(const ObjectReader& parent, Eigen::Quaterniond& orientatio
   const int given = (in.has("quaternion") ? 1 : 0) + (in.has("euler_degrees") ? 1 : 0) +
                     (in.has("axis_angle") ? 1 : 0);
   if (given != 1) {
-    parent.problems().add(node->line, what + (given ? " is given in several ways" : " is empty"),
-                          "give one of quaternion [x, y, z, w], euler_degrees [x, y, z] or axis_angle "
-                          "[x, y, z, degrees]");
+    parent.problems().add(
+        node->line, what + (given ? " is given in several ways" : " is empty"),
+        "give one of quaternion [x, y, z, w], euler_degrees [x, y, z] or axis_angle "
+        "[x, y, z, degrees]");
     return false;
   }
   double v[4];

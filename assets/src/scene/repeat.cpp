@@ -27,9 +27,11 @@ std::vector<RepeatPlace> places_of(const SceneRepeat& repeat) {
     for (int j = 0; j < repeat.count[1]; ++j) {
       for (int i = 0; i < repeat.count[0]; ++i) {
         RepeatPlace& place = places.emplace_back();
-        const double cell[3] = {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+        const double cell[3] = {static_cast<double>(i), static_cast<double>(j),
+                                static_cast<double>(k)};
         for (Eigen::Index axis = 0; axis < 3; ++axis) {
-          place.offset[axis] = cell[axis] * repeat.spacing[axis] + repeat.jitter[axis] * random.next();
+          place.offset[axis] =
+              cell[axis] * repeat.spacing[axis] + repeat.jitter[axis] * random.next();
         }
         if (repeat.random_orientation) place.turn = random_rotation(random);
       }

@@ -2,10 +2,9 @@
 // enter, so that a seed means the same scene on every machine.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "plumb/assets/scene.h"
 
@@ -26,8 +25,9 @@ class Lcg {
 };
 
 struct RepeatPlace {
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();                  // [m] world axes
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  // applied after the body's own orientation
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m] world axes
+  Eigen::Quaterniond turn =
+      Eigen::Quaterniond::Identity();  // applied after the body's own orientation
 };
 
 // In the order x fastest, then y, then z.

@@ -159,9 +159,10 @@ Json json_of(const SceneBody& scene_body) {
     out["mass"] = *scene_body.mass_scaled_to;
   } else if (body.mass) {
     const Eigen::Matrix3d& t = body.mass->I_Bcm_B;
-    out["mass"] = {{"mass", body.mass->mass},
-                   {"center", list(body.mass->center)},
-                   {"inertia", Json::array({t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(0, 2), t(1, 2)})}};
+    out["mass"] = {
+        {"mass", body.mass->mass},
+        {"center", list(body.mass->center)},
+        {"inertia", Json::array({t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(0, 2), t(1, 2)})}};
   }
   Json colliders = Json::array();
   for (const SceneCollider& collider : scene_body.colliders) colliders.push_back(json_of(collider));

@@ -15,9 +15,9 @@ enum ExitCode : int {
 
 struct RunOptions {
   std::string scene;
-  std::string output;  // empty: nothing is recorded
+  std::string output;                 // empty: nothing is recorded
   std::optional<std::int64_t> steps;  // >= 0
-  std::optional<double> dt;  // [s]
+  std::optional<double> dt;           // [s]
   std::optional<int> substeps;
   int threads = 1;  // 0: as many as the machine has
   bool quiet = false;
@@ -27,9 +27,9 @@ int run_scene(const RunOptions& options);
 struct MeshOptions {
   std::string file;
   std::string method = "solid";
-  std::string up;  // empty: what the file says
-  double density = 1000;            // [kg/m^3]
-  double thickness = 0;             // [m] of a shell
+  std::string up;         // empty: what the file says
+  double density = 1000;  // [kg/m^3]
+  double thickness = 0;   // [m] of a shell
   std::optional<double> metres_per_unit;
   bool json = false;
 };

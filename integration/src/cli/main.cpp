@@ -41,7 +41,8 @@ void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
 
 void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
   CLI::App* mesh = app.add_subcommand("mesh", "Certificate, mass and hull of a mesh file");
-  mesh->add_option("FILE", options.file, "OBJ, STL, PLY, glTF, FBX, Collada, OFF and more")->required();
+  mesh->add_option("FILE", options.file, "OBJ, STL, PLY, glTF, FBX, Collada, OFF and more")
+      ->required();
   mesh->add_option("--method", options.method, "How the mass is found")
       ->check(CLI::IsMember({"solid", "shell", "hull", "voxel"}))
       ->capture_default_str();
@@ -49,7 +50,8 @@ void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
   mesh->add_option("--thickness", options.thickness, "Of a shell, in metres");
   mesh->add_option("--metres-per-unit", options.metres_per_unit,
                    "Metres in one unit of the file; default: what the file says");
-  mesh->add_option("--up", options.up, "Axis of the file that points up; default: what the file says")
+  mesh->add_option("--up", options.up,
+                   "Axis of the file that points up; default: what the file says")
       ->check(CLI::IsMember({"x", "y", "z"}));
   mesh->add_flag("--json", options.json, "For programs: one JSON object");
   mesh->callback([&] { exit_code = inspect_mesh(options); });

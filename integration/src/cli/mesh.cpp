@@ -25,7 +25,8 @@ int inspect_mesh(const MeshOptions& options) {
     complain(inspection.error());
     return kBadInput;
   }
-  const std::string page = options.json ? assets::to_json(*inspection) : assets::to_text(*inspection);
+  const std::string page =
+      options.json ? assets::to_json(*inspection) : assets::to_text(*inspection);
   std::fputs(page.c_str(), stdout);
   if (!page.empty() && page.back() != '\n') std::fputc('\n', stdout);
   return inspection->mass ? kOk : kFailed;

@@ -16,7 +16,9 @@ constexpr const char* kWipe = "\r\x1b[K";
 }  // namespace
 
 ProgressBar::ProgressBar(std::uint64_t total, bool wanted)
-    : total_(total), visible_(wanted && isatty(STDERR_FILENO) != 0), start_(Clock::now()),
+    : total_(total),
+      visible_(wanted && isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
       next_draw_(start_) {}
 
 ProgressBar::~ProgressBar() {

@@ -65,17 +65,16 @@ double RecordingFile::seconds() const { return state_ ? state_->cost.seconds : 0
 double RecordingFile::seconds_per_body_step() const {
   return state_ ? state_->cost.seconds_per_body_step() : 0;
 }
-std::uint64_t RecordingFile::body_steps() const {
-  return state_ ? state_->cost.body_steps : 0;
-}
+std::uint64_t RecordingFile::body_steps() const { return state_ ? state_->cost.body_steps : 0; }
 
 #else
 
 struct RecordingFile::State {};
 
-std::string RecordingFile::open(const std::string&, const assets::Scene&, const assets::SceneInstance&,
-                                PhysicsWorld&) {
-  return "this build of plumb cannot record; build it with PLUMB_REPLAY=ON (needs cargo) or leave out -o";
+std::string RecordingFile::open(const std::string&, const assets::Scene&,
+                                const assets::SceneInstance&, PhysicsWorld&) {
+  return "this build of plumb cannot record; build it with PLUMB_REPLAY=ON (needs cargo) or leave "
+         "out -o";
 }
 std::string RecordingFile::problem() const { return {}; }
 std::string RecordingFile::finish(PhysicsWorld&) { return {}; }

@@ -27,8 +27,8 @@ class RecordingFile {
   [[nodiscard]] bool is_open() const;
   // Of the finished file.
   [[nodiscard]] std::uint64_t bytes() const;
-  [[nodiscard]] double seconds() const;                 // [s] taken from the stepping thread
-  [[nodiscard]] double seconds_per_body_step() const;   // [s]
+  [[nodiscard]] double seconds() const;                // [s] taken from the stepping thread
+  [[nodiscard]] double seconds_per_body_step() const;  // [s]
   [[nodiscard]] std::uint64_t body_steps() const;
 
  private:

@@ -50,8 +50,9 @@ int replay_info(const std::string& recording) {
   std::printf("Bodies       %" PRIu64 " that can move\n", info.bodies);
   std::printf("Replay       %" PRIu64 " inputs, %" PRIu64 " snapshots; scene %s\n", info.inputs,
               info.snapshots, info.scene.empty() ? "not included" : "included");
-  std::printf("Finished     %s\n",
-              info.finished ? "yes" : "no: the program that wrote it was stopped or is still at work");
+  std::printf(
+      "Finished     %s\n",
+      info.finished ? "yes" : "no: the program that wrote it was stopped or is still at work");
   if (info.cut_bytes > 0) {
     std::printf("Cut off      %" PRIu64 " bytes at the end belong to a piece that is not whole\n",
                 info.cut_bytes);
@@ -61,7 +62,8 @@ int replay_info(const std::string& recording) {
 
 int replay_verify(const std::string& recording, int threads) {
   const std::unique_ptr<JobSystem> jobs = threads == 1 ? nullptr : make_thread_pool(threads);
-  return report(replay::verify(recording, {.jobs = jobs.get()}), "frames simulated again, bit by bit");
+  return report(replay::verify(recording, {.jobs = jobs.get()}),
+                "frames simulated again, bit by bit");
 }
 
 int replay_diff(const std::string& recording_a, const std::string& recording_b) {
@@ -73,7 +75,8 @@ int replay_diff(const std::string& recording_a, const std::string& recording_b) 
 namespace {
 
 int no_replay() {
-  complain("this build of plumb cannot read recordings; build it with PLUMB_REPLAY=ON (needs cargo)");
+  complain(
+      "this build of plumb cannot read recordings; build it with PLUMB_REPLAY=ON (needs cargo)");
   return kBadInput;
 }
 

@@ -41,8 +41,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // Steps the world and fills the summary in; an error text if the run had to be given up.
-std::string simulate(PhysicsWorld& world, const assets::Scene& scene, std::uint64_t steps, bool quiet,
-                     const RecordingFile& recording, RunSummary& summary) {
+std::string simulate(PhysicsWorld& world, const assets::Scene& scene, std::uint64_t steps,
+                     bool quiet, const RecordingFile& recording, RunSummary& summary) {
   summary.begin(world);
   ProgressBar bar(steps, !quiet);
   for (std::uint64_t k = 0; k < steps && stop_wanted == 0; ++k) {
@@ -76,7 +76,8 @@ int run_scene(const RunOptions& options) {
       options.steps ? static_cast<std::uint64_t>(*options.steps) : scene.step.count();
   if (options.steps) scene.step.duration = static_cast<double>(steps) * scene.step.dt;
 
-  const std::unique_ptr<JobSystem> jobs = options.threads == 1 ? nullptr : make_thread_pool(options.threads);
+  const std::unique_ptr<JobSystem> jobs =
+      options.threads == 1 ? nullptr : make_thread_pool(options.threads);
   PhysicsWorld world;
   const assets::Result<assets::SceneInstance> instance = assets::instantiate(scene, world);
   if (!instance.ok()) {
@@ -107,7 +108,8 @@ int run_scene(const RunOptions& options) {
   if (!options.quiet) summary.print(scene, *instance, world, recording, options.output);
   if (!wrong.empty()) complain(wrong);
   if (summary.quarantined > 0) {
-    complain(std::to_string(summary.quarantined) + " bodies became non-finite and were taken out of the run");
+    complain(std::to_string(summary.quarantined) +
+             " bodies became non-finite and were taken out of the run");
   }
   if (stop_wanted != 0) complain("stopped at step " + std::to_string(summary.steps));
   const bool good = wrong.empty() && summary.quarantined == 0 && stop_wanted == 0;

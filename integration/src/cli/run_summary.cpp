@@ -10,7 +10,7 @@ namespace {
 constexpr double kMillimetres = 1e3;   // per metre
 constexpr double kMilliseconds = 1e3;  // per second
 constexpr double kMicroseconds = 1e6;
-constexpr double kMegabyte = 1e6;      // [bytes]
+constexpr double kMegabyte = 1e6;  // [bytes]
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
@@ -41,25 +41,28 @@ void RunSummary::print(const assets::Scene& scene, const assets::SceneInstance& 
                        const std::string& output) const {
   const double simulated = static_cast<double>(steps) * scene.step.dt;
   const double stepping = std::max(0.0, step_seconds - recording.seconds());
-  std::printf("Scene        %s: %zu bodies, %zu meshes\n", scene.name.c_str(), instance.bodies.size(),
-              instance.meshes.size());
-  std::printf("Simulated    %.3f s in %" PRIu64 " steps of %.3f ms, %d substeps each\n", simulated, steps,
-              kMilliseconds * scene.step.dt, scene.settings.substeps);
+  std::printf("Scene        %s: %zu bodies, %zu meshes\n", scene.name.c_str(),
+              instance.bodies.size(), instance.meshes.size());
+  std::printf("Simulated    %.3f s in %" PRIu64 " steps of %.3f ms, %d substeps each\n", simulated,
+              steps, kMilliseconds * scene.step.dt, scene.settings.substeps);
   std::printf("Speed        %.1f x real time: %.3f ms a step, %.3f us a body and step\n",
-              ratio(simulated, stepping), kMilliseconds * ratio(stepping, static_cast<double>(steps)),
+              ratio(simulated, stepping),
+              kMilliseconds * ratio(stepping, static_cast<double>(steps)),
               kMicroseconds * ratio(stepping, static_cast<double>(body_steps)));
   std::printf("Contacts     %" PRIu64 " points at the end, at most %" PRIu64
               "; deepest overlap %.3f mm\n",
               contact_points, most_contact_points, kMillimetres * largest_penetration);
-  std::printf("Energy       %.6g J at the start, %.6g J at the end; upward drift at most"
-              " %.3g J (%.3g %% of the largest kinetic energy)\n",
-              first_energy, last_energy, energy_gained, 100 * ratio(energy_gained, largest_kinetic));
+  std::printf(
+      "Energy       %.6g J at the start, %.6g J at the end; upward drift at most"
+      " %.3g J (%.3g %% of the largest kinetic energy)\n",
+      first_energy, last_energy, energy_gained, 100 * ratio(energy_gained, largest_kinetic));
   std::printf("State hash   %016" PRIx64 "\n", world.state_hash());
   if (!recording.is_open() || recording.bytes() == 0) return;
-  std::printf("Recording    %s: %.2f MB, %.1f bytes a body and frame; cost %.3f us a body and frame\n",
-              output.c_str(), static_cast<double>(recording.bytes()) / kMegabyte,
-              ratio(static_cast<double>(recording.bytes()), static_cast<double>(recording.body_steps())),
-              kMicroseconds * recording.seconds_per_body_step());
+  std::printf(
+      "Recording    %s: %.2f MB, %.1f bytes a body and frame; cost %.3f us a body and frame\n",
+      output.c_str(), static_cast<double>(recording.bytes()) / kMegabyte,
+      ratio(static_cast<double>(recording.bytes()), static_cast<double>(recording.body_steps())),
+      kMicroseconds * recording.seconds_per_body_step());
 }
 
 }  // namespace plumb::cli

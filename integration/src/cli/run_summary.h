@@ -12,22 +12,23 @@ namespace plumb::cli {
 
 struct RunSummary {
   std::uint64_t steps = 0;
-  double step_seconds = 0;             // [s] wall time in step(), the recorder's share included
+  double step_seconds = 0;  // [s] wall time in step(), the recorder's share included
   std::uint64_t body_steps = 0;
-  std::uint64_t contact_points = 0;    // at the end
+  std::uint64_t contact_points = 0;  // at the end
   std::uint64_t most_contact_points = 0;
-  double largest_penetration = 0;      // [m]
+  double largest_penetration = 0;  // [m]
   std::uint64_t quarantined = 0;
-  double first_energy = 0;             // [J]
-  double last_energy = 0;              // [J]
-  double lowest_energy = 0;            // [J] so far
-  double energy_gained = 0;            // [J] the most that it ever stood above an earlier value
-  double largest_kinetic = 0;          // [J]
+  double first_energy = 0;     // [J]
+  double last_energy = 0;      // [J]
+  double lowest_energy = 0;    // [J] so far
+  double energy_gained = 0;    // [J] the most that it ever stood above an earlier value
+  double largest_kinetic = 0;  // [J]
 
   void begin(const PhysicsWorld& world);
   void add(const PhysicsWorld& world, const StepReport& report);
   void print(const assets::Scene& scene, const assets::SceneInstance& instance,
-             const PhysicsWorld& world, const RecordingFile& recording, const std::string& output) const;
+             const PhysicsWorld& world, const RecordingFile& recording,
+             const std::string& output) const;
 };
 
 }  // namespace plumb::cli

@@ -27,13 +27,13 @@ struct MotionLocks {
 
 struct RigidBody {
   MotionType type = MotionType::Dynamic;
-  Pose pose;                             // of the body frame B in the world
+  Pose pose{};                           // of the body frame B in the world
   Vec3 linear_velocity = Vec3::Zero();   // [m/s] of the centre of mass, world axes
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] world axes
   // Left empty, mass comes from the colliders' densities. A dynamic body without colliders and
   // without this has 1 kg at its origin and does not rotate (a point mass).
-  std::optional<MassProperties> mass;
-  MotionLocks locks;
+  std::optional<MassProperties> mass{};
+  MotionLocks locks{};
   Real linear_damping = Real(0);   // [1/s] >= 0: v' = -c v, exact at any time step
   Real angular_damping = Real(0);  // [1/s] >= 0: L' = -c L
   Real gravity_scale = Real(1);    // [-] finite
@@ -47,7 +47,7 @@ struct BodyState {
   BodyId id;
   MotionType type = MotionType::Dynamic;
   bool awake = true;
-  Pose pose;                             // of the body frame B
+  Pose pose{};                           // of the body frame B
   Vec3 linear_velocity = Vec3::Zero();   // [m/s] of the centre of mass
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] world axes
   std::uint64_t user_data = 0;

@@ -229,9 +229,7 @@ Outcome Recorder::status() const {
 
 RecorderCost Recorder::cost() const { return run_ ? run_->cost_ : RecorderCost{}; }
 
-std::uint64_t Recorder::bytes_written() const {
-  return run_ ? run_->writer_.bytes_written() : 0;
-}
+std::uint64_t Recorder::bytes_written() const { return run_ ? run_->writer_.bytes_written() : 0; }
 
 // Nothing that recording lacks, memory least of all, may pass into the step that is being recorded.
 void Recorder::on_attach(const PhysicsWorld& world) {

@@ -30,10 +30,11 @@ namespace plumb::inline PLUMB_ABI::assets {
 inline constexpr int kSceneVersion = 1;
 
 struct SceneStep {
-  double dt = 1.0 / 60;   // [s] > 0
-  double duration = 10;   // [s] >= 0
+  double dt = 1.0 / 60;  // [s] > 0
+  double duration = 10;  // [s] >= 0
 
-  // Steps that cover the duration; a duration that is a multiple of dt up to rounding counts as one.
+  // Steps that cover the duration; a duration that is a multiple of dt up to rounding counts as
+  // one.
   [[nodiscard]] std::uint64_t count() const;
 };
 
@@ -44,8 +45,8 @@ struct SceneMaterial {
 
 struct SceneMesh {
   std::string name;
-  std::string file;  // as written: relative to the folder of the scene
-  std::string path;  // where that is, seen from the working directory
+  std::string file;                       // as written: relative to the folder of the scene
+  std::string path;                       // where that is, seen from the working directory
   std::optional<double> metres_per_unit;  // [m] > 0; unset: what the file says
   std::optional<Axis> up;                 // unset: what the file says
   // What the mesh collides as. Concave meshes collide as their hull too, therefore the file has to
@@ -57,20 +58,20 @@ struct SceneMesh {
 };
 
 struct SceneCollider {
-  Collider collider;           // its shape is not used if `mesh` is named
-  std::string mesh;            // name of a SceneMesh, or empty
-  std::string material;        // name it came from; empty: written out in `collider`
+  Collider collider;              // its shape is not used if `mesh` is named
+  std::string mesh;               // name of a SceneMesh, or empty
+  std::string material;           // name it came from; empty: written out in `collider`
   std::optional<double> density;  // [kg/m^3] unset: of the mesh, or Collider's default
   int line = 0;
 };
 
 // Copies of one body on a grid along the world axes.
 struct SceneRepeat {
-  std::array<int, 3> count{1, 1, 1};                            // >= 1 each
-  Eigen::Vector3d spacing = Eigen::Vector3d::Ones();            // [m]
-  Eigen::Vector3d jitter = Eigen::Vector3d::Zero();             // [m] >= 0: moved by up to this, either way
-  bool random_orientation = false;                              // uniformly over all rotations
-  std::uint64_t seed = 1;                                       // same seed, same scene, on every machine
+  std::array<int, 3> count{1, 1, 1};                  // >= 1 each
+  Eigen::Vector3d spacing = Eigen::Vector3d::Ones();  // [m]
+  Eigen::Vector3d jitter = Eigen::Vector3d::Zero();   // [m] >= 0: moved by up to this, either way
+  bool random_orientation = false;                    // uniformly over all rotations
+  std::uint64_t seed = 1;                             // same seed, same scene, on every machine
 
   [[nodiscard]] std::size_t total() const {
     return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) *
@@ -83,7 +84,7 @@ struct SceneBody {
   RigidBody body;
   std::optional<double> mass_scaled_to;  // [kg] > 0: keep the shape's distribution, with this mass
   std::vector<SceneCollider> colliders;
-  std::optional<SceneRepeat> repeat;     // copies are named "name[0]", "name[1]", ...
+  std::optional<SceneRepeat> repeat;  // copies are named "name[0]", "name[1]", ...
   int line = 0;
 };
 
@@ -125,23 +126,25 @@ struct SceneInstanceBody {
 
 struct SceneInstanceMesh {
   std::string name;
-  TriangleMesh mesh;                        // [m] mesh frame
-  std::shared_ptr<const HullGeometry> hull; // what it collides as
-  double hull_excess = 0;  // volume of the hull over that of the mesh, minus 1; 0 if the mesh has none
+  TriangleMesh mesh;                         // [m] mesh frame
+  std::shared_ptr<const HullGeometry> hull;  // what it collides as
+  double hull_excess =
+      0;  // volume of the hull over that of the mesh, minus 1; 0 if the mesh has none
 };
 
 struct SceneInstance {
-  std::vector<SceneInstanceBody> bodies;    // in the order of the file; user_data of a body is its index
-  std::vector<SceneInstanceMesh> meshes;    // those that bodies use
-  std::vector<std::string> notes;           // worth knowing: concave meshes that collide as their hull
+  std::vector<SceneInstanceBody>
+      bodies;  // in the order of the file; user_data of a body is its index
+  std::vector<SceneInstanceMesh> meshes;  // those that bodies use
+  std::vector<std::string> notes;  // worth knowing: concave meshes that collide as their hull
   std::map<std::string, std::size_t, std::less<>> index_of;  // name to index in `bodies`
 
   // Null if there is no such name.
   [[nodiscard]] BodyId find(std::string_view name) const;
 };
 
-// Builds the scene in the world and gives the world its settings. On an error the world is left with
-// the bodies and settings that it had before.
+// Builds the scene in the world and gives the world its settings. On an error the world is left
+// with the bodies and settings that it had before.
 Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world);
 
 }  // namespace plumb::inline PLUMB_ABI::assets

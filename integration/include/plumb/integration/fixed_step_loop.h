@@ -16,18 +16,18 @@
 namespace plumb::inline PLUMB_ABI::integration {
 
 struct LoopSettings {
-  double dt = 1.0 / 60;        // [s] 1e-9..1e3: length of a step
+  double dt = 1.0 / 60;  // [s] 1e-9..1e3: length of a step
   // A tick never runs more steps than this [-] >= 1; what lies beyond is dropped and reported. A
   // game that cannot keep up then runs slower instead of freezing.
   int max_steps_per_tick = 8;
-  double time_scale = 1;       // [-] >= 0, finite: 0.5 is slow motion, 0 stands still
+  double time_scale = 1;  // [-] >= 0, finite: 0.5 is slow motion, 0 stands still
 };
 
 struct TickReport {
-  Status status;           // not ok: the tick was refused, or a step was
-  int steps = 0;           // done in this tick
-  double dropped = 0;      // [s] simulated time given up in this tick: the cap was reached
-  double alpha = 0;        // [-] 0..1, 1 excluded: how far the next step is on its way
+  Status status;       // not ok: the tick was refused, or a step was
+  int steps = 0;       // done in this tick
+  double dropped = 0;  // [s] simulated time given up in this tick: the cap was reached
+  double alpha = 0;    // [-] 0..1, 1 excluded: how far the next step is on its way
 };
 
 class FixedStepLoop {
@@ -56,7 +56,7 @@ class FixedStepLoop {
   void request_steps(int count = 1) { requested_ += count > 0 ? count : 0; }
 
   [[nodiscard]] double alpha() const;
-  [[nodiscard]] double remainder() const { return high_ + low_; }     // [s] fed, not yet stepped, < dt
+  [[nodiscard]] double remainder() const { return high_ + low_; }  // [s] fed, not yet stepped, < dt
   [[nodiscard]] double dropped_total() const { return dropped_total_; }  // [s] given up so far
   [[nodiscard]] std::uint64_t step_total() const { return step_total_; }
 
@@ -69,8 +69,8 @@ class FixedStepLoop {
   LoopSettings settings_;
   std::vector<StepHook> before_, after_;
   // The remainder as a sum of two doubles that do not overlap.
-  double high_ = 0;  // [s]
-  double low_ = 0;   // [s]
+  double high_ = 0;           // [s]
+  double low_ = 0;            // [s]
   double dropped_total_ = 0;  // [s]
   std::uint64_t step_total_ = 0;
   int requested_ = 0;

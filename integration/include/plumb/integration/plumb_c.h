@@ -8,9 +8,9 @@
  *   plumb_add_sphere(world, ball, 0.5, NULL, NULL);
  *   plumb_step(world, 1.0 / 60);
  *
- * Every call returns a status and changes nothing when it is not PLUMB_OK; plumb_message() then says
- * why. Numbers are doubles and SI units whatever the build computes in. Not thread-safe: one thread
- * at a time for each world. */
+ * Every call returns a status and changes nothing when it is not PLUMB_OK; plumb_message() then
+ * says why. Numbers are doubles and SI units whatever the build computes in. Not thread-safe: one
+ * thread at a time for each world. */
 #ifndef PLUMB_INTEGRATION_PLUMB_C_H
 #define PLUMB_INTEGRATION_PLUMB_C_H
 
@@ -94,13 +94,14 @@ uint32_t plumb_c_abi_version(void);
 const char* plumb_version(void);
 
 plumb_settings plumb_settings_default(void);
-plumb_body_def plumb_body_default(void);  /* dynamic, at rest, at the origin */
+plumb_body_def plumb_body_default(void); /* dynamic, at rest, at the origin */
 plumb_surface plumb_surface_default(void);
 
 /* settings: NULL for the defaults. */
 plumb_status plumb_world_create(const plumb_settings* settings, plumb_world** out);
 void plumb_world_destroy(plumb_world* world); /* NULL does nothing */
-/* Why the last call on this world that did not return PLUMB_OK did not; valid until the next one. */
+/* Why the last call on this world that did not return PLUMB_OK did not; valid until the next one.
+ */
 const char* plumb_message(const plumb_world* world);
 
 plumb_status plumb_body_create(plumb_world* world, const plumb_body_def* def, plumb_body* out);
@@ -115,8 +116,8 @@ plumb_status plumb_add_sphere(plumb_world* world, plumb_body body, double radius
 plumb_status plumb_add_box(plumb_world* world, plumb_body body, const double half_extents[3],
                            const plumb_surface* surface, plumb_collider* out);
 /* Along the y axis of the shape. */
-plumb_status plumb_add_capsule(plumb_world* world, plumb_body body, double half_length, double radius,
-                               const plumb_surface* surface, plumb_collider* out);
+plumb_status plumb_add_capsule(plumb_world* world, plumb_body body, double half_length,
+                               double radius, const plumb_surface* surface, plumb_collider* out);
 
 plumb_status plumb_step(plumb_world* world, double dt);
 double plumb_time(const plumb_world* world); /* [s] simulated */

@@ -17,7 +17,7 @@ namespace plumb::inline PLUMB_ABI::integration {
 struct SyncedPose {
   std::uint64_t entity = 0;  // RigidBody::user_data
   BodyId body;
-  Pose pose;                 // between the last two steps
+  Pose pose;  // between the last two steps
 };
 
 // The pose a share alpha (0..1) of the way from one to the other: positions along the line,
@@ -50,7 +50,8 @@ class PoseSync {
     for (std::size_t k = 0; k < active_.size(); ++k) {
       Track& track = tracks_[active_[k]];
       if (world.is_valid(track.body)) {
-        write_one(SyncedPose{track.entity, track.body, interpolated(track.previous, track.current, alpha)});
+        write_one(SyncedPose{track.entity, track.body,
+                             interpolated(track.previous, track.current, alpha)});
         ++written;
         if (!track.at_rest) {
           active_[kept++] = active_[k];
