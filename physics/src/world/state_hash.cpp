@@ -54,6 +54,7 @@ std::uint64_t PhysicsWorld::state_hash() const {
   }
   for (std::size_t i = 0; i < world.pairs.size(); ++i) {
     const Pair& pair = world.pairs[i];
+    if (pair.manifold.count == 0) continue;  // follows from the poses and boxes
     digest.add(pair.key);
     digest.add(static_cast<std::uint64_t>(pair.manifold.count));
     for (int k = 0; k < pair.manifold.count; ++k) {
