@@ -78,6 +78,7 @@ int run_scene(const RunOptions& options) {
 
   const std::unique_ptr<JobSystem> jobs =
       options.threads == 1 ? nullptr : make_thread_pool(options.threads);
+  scene.settings.profiling = !options.output.empty();  // a recording shows the stages' times
   PhysicsWorld world;
   const assets::Result<assets::SceneInstance> instance = assets::instantiate(scene, world);
   if (!instance.ok()) {

@@ -11,7 +11,9 @@ namespace {
 
 // The eye stands this many scene radii to the side, above and in front of the scene's centre: the
 // whole scene in view, its depth visible.
-constexpr double kEyeRight = 1.1, kEyeUp = 0.8, kEyeFront = 1.9;
+constexpr double kEyeRight = 0.8, kEyeUp = 0.7, kEyeFront = 1.4;
+// ... and looks this many radii below the centre: what begins high falls and stays low.
+constexpr double kLookDown = 0.4;
 
 // Rerun's directions are up 1, down 2, right 3, left 4, forward 5, back 6, for x, y, z.
 void send_axes(rrd::Writer& writer, const Eigen::Vector3d& up) {
@@ -46,10 +48,11 @@ void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderO
       std::abs(up.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d front = aside.cross(up).normalized();
   const Eigen::Vector3d right = up.cross(front);
+  const Eigen::Vector3d target = extent.center - kLookDown * extent.radius * up;
   const Eigen::Vector3d eye =
-      extent.center + extent.radius * (kEyeRight * right + kEyeUp * up + kEyeFront * front);
+      target + extent.radius * (kEyeRight * right + kEyeUp * up + kEyeFront * front);
   copy_to(eye, layout.eye);
-  copy_to(extent.center, layout.target);
+  copy_to(target, layout.target);
   copy_to(up, layout.up);
   send_axes(writer, up);
   writer.send_layout(layout);
