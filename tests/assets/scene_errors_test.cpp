@@ -10,11 +10,11 @@ namespace {
 using plumb::assets::parse_scene;
 
 struct BadScene {
-  const char* name;     // of the test
+  const char* name;  // of the test
   const char* text;
-  int line;             // where the error has to point
-  const char* says;     // what is wrong
-  const char* remedy;   // what would be right
+  int line;            // where the error has to point
+  const char* says;    // what is wrong
+  const char* remedy;  // what would be right
 };
 
 void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.name; }
@@ -36,7 +36,8 @@ const BadScene kBadScenes[] = {
     {"EmptyFile", "", 1, "not JSON", "comma, quote or bracket"},
     {"MissingComma", "{\n\"plumb_scene\": 1\n\"bodies\": []\n}", 3, "not JSON", "comma"},
     {"TrailingComma", "{\n\"plumb_scene\": 1,\n\"bodies\": [],\n}", 4, "not JSON", "comma"},
-    {"Comment", "{\n// a comment\n\"plumb_scene\": 1, \"bodies\": []}", 2, "not JSON", "no comments"},
+    {"Comment", "{\n// a comment\n\"plumb_scene\": 1, \"bodies\": []}", 2, "not JSON",
+     "no comments"},
     {"CutOff", "{\n\"plumb_scene\": 1,\n\"bodies\": [", 3, "not JSON", "bracket"},
     {"HugeNumber", "{\n\"plumb_scene\": 1e999, \"bodies\": []}", 2, "not JSON", "comma"},
     {"DuplicateKey", "{\"plumb_scene\": 1,\n\"name\": \"a\",\n\"name\": \"b\", \"bodies\": []}", 3,
@@ -51,31 +52,36 @@ const BadScene kBadScenes[] = {
      "unknown key 'zzzzzzzz'", "use one of $schema, plumb_scene"},
     {"WrongKind", "{\"plumb_scene\": 1, \"bodies\": [{\n\"position\": \"here\"}]}", 2,
      "'position' of body 'body 0' is a text", "a list of 3"},
-    {"WrongLength", "{\"plumb_scene\": 1, \"bodies\": [{\n\"position\": [1, 2]}]}", 2, "has 2 entries",
-     "a list of 3"},
+    {"WrongLength", "{\"plumb_scene\": 1, \"bodies\": [{\n\"position\": [1, 2]}]}", 2,
+     "has 2 entries", "a list of 3"},
     {"NegativeRadius",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"sphere\",\n\"radius\": -1}]}]}", 3,
-     "'radius' of collider 0 of body 'body 0' is -1", "> 0"},
-    {"NoRadius", "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"sphere\"}]}]}", 2,
-     "has no 'radius'", "in metres"},
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"sphere\",\n\"radius\": "
+     "-1}]}]}",
+     3, "'radius' of collider 0 of body 'body 0' is -1", "> 0"},
+    {"NoRadius", "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"sphere\"}]}]}",
+     2, "has no 'radius'", "in metres"},
     {"NoShape", "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"radius\": 1}]}]}", 2,
      "has no 'shape'", "sphere, box, capsule"},
-    {"UnknownShape", "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\n\"shape\": \"shpere\"}]}]}", 2,
+    {"UnknownShape",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\n\"shape\": \"shpere\"}]}]}", 2,
      "is 'shpere'", "did you mean 'sphere'?"},
     {"KeyOfAnotherShape",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"box\", \"half_extents\": [1, 1, 1],\n"
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"box\", \"half_extents\": "
+     "[1, 1, 1],\n"
      "\"radius\": 1}]}]}",
      2, "is a box, which has no 'radius'", "half_extents"},
     {"MovingHalfSpace",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"half_space\"}]}]}", 2, "half-space",
-     "\"type\": \"static\""},
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"half_space\"}]}]}", 2,
+     "half-space", "\"type\": \"static\""},
     {"UnknownMaterial",
-     "{\"plumb_scene\": 1, \"materials\": {\"ice\": {}}, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", "
+     "{\"plumb_scene\": 1, \"materials\": {\"ice\": {}}, \"bodies\": [{\"colliders\": [{\"shape\": "
+     "\"sphere\", "
      "\"radius\": 1,\n\"material\": \"icy\"}]}]}",
      2, "no material 'icy'", "did you mean 'ice'?"},
     {"UnknownMesh",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"mesh\",\n\"mesh\": \"gear\"}]}]}", 2,
-     "no mesh 'gear'", "\"meshes\""},
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"mesh\",\n\"mesh\": "
+     "\"gear\"}]}]}",
+     2, "no mesh 'gear'", "\"meshes\""},
     {"MeshWithoutCollision",
      "{\"plumb_scene\": 1, \"bodies\": [], \"meshes\": {\n\"gear\": {\"file\": \"gear.dae\"}}}", 2,
      "has no 'collision'", "\"collision\": \"hull\""},
@@ -83,49 +89,53 @@ const BadScene kBadScenes[] = {
      "{\"plumb_scene\": 1, \"bodies\": [], \"meshes\": {\n\"gear\": {\"collision\": \"hull\"}}}", 2,
      "has no 'file'", "relative to the folder"},
     {"ShellWithoutThickness",
-     "{\"plumb_scene\": 1, \"bodies\": [], \"meshes\": {\"gear\": {\"file\": \"a.obj\", \"collision\": \"hull\",\n"
+     "{\"plumb_scene\": 1, \"bodies\": [], \"meshes\": {\"gear\": {\"file\": \"a.obj\", "
+     "\"collision\": \"hull\",\n"
      "\"mass_of\": {\"method\": \"shell\"}}}}",
      2, "has no 'thickness'", "in metres"},
     {"ThicknessOfASolid",
-     "{\"plumb_scene\": 1, \"bodies\": [], \"meshes\": {\"gear\": {\"file\": \"a.obj\", \"collision\": \"hull\",\n"
+     "{\"plumb_scene\": 1, \"bodies\": [], \"meshes\": {\"gear\": {\"file\": \"a.obj\", "
+     "\"collision\": \"hull\",\n"
      "\"mass_of\": {\"method\": \"solid\",\n\"thickness\": 0.1}}}}",
      3, "no meaning", "\"shell\""},
-    {"FrictionNegative", "{\"plumb_scene\": 1, \"bodies\": [], \"materials\": {\"ice\":\n{\"friction\": -0.1}}}",
-     2, "'friction' of material 'ice' is -0.1", ">= 0"},
+    {"FrictionNegative",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"materials\": {\"ice\":\n{\"friction\": -0.1}}}", 2,
+     "'friction' of material 'ice' is -0.1", ">= 0"},
     {"RestitutionAboveOne",
-     "{\"plumb_scene\": 1, \"bodies\": [], \"materials\": {\"ice\":\n{\"restitution\": 1.5}}}", 2, "is 1.5",
-     "from 0 to 1"},
-    {"SubstepsFraction", "{\"plumb_scene\": 1, \"bodies\": [], \"settings\": {\n\"substeps\": 2.5}}", 2,
+     "{\"plumb_scene\": 1, \"bodies\": [], \"materials\": {\"ice\":\n{\"restitution\": 1.5}}}", 2,
+     "is 1.5", "from 0 to 1"},
+    {"SubstepsFraction",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"settings\": {\n\"substeps\": 2.5}}", 2,
      "'substeps' of settings is 2.5", "whole number"},
-    {"SubstepsTooMany", "{\"plumb_scene\": 1, \"bodies\": [], \"settings\": {\n\"substeps\": 65}}", 2, "is 65",
-     "from 1 to 64"},
-    {"StepZero", "{\"plumb_scene\": 1, \"bodies\": [], \"step\": {\n\"dt\": 0}}", 2, "'dt' of step is 0",
-     "from 1e-09"},
-    {"StepTwice", "{\"plumb_scene\": 1, \"bodies\": [], \"step\": {\"dt\": 0.01,\n\"rate\": 100}}", 2,
-     "both 'dt' and 'rate'", "keep one"},
+    {"SubstepsTooMany", "{\"plumb_scene\": 1, \"bodies\": [], \"settings\": {\n\"substeps\": 65}}",
+     2, "is 65", "from 1 to 64"},
+    {"StepZero", "{\"plumb_scene\": 1, \"bodies\": [], \"step\": {\n\"dt\": 0}}", 2,
+     "'dt' of step is 0", "from 1e-09"},
+    {"StepTwice", "{\"plumb_scene\": 1, \"bodies\": [], \"step\": {\"dt\": 0.01,\n\"rate\": 100}}",
+     2, "both 'dt' and 'rate'", "keep one"},
     {"QuaternionNotUnit",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"orientation\": {\n\"quaternion\": [1, 1, 1, 1]}}]}", 2, "has length 2",
-     "[0, 0, 0, 1]"},
+     "{\"plumb_scene\": 1, \"bodies\": [{\"orientation\": {\n\"quaternion\": [1, 1, 1, 1]}}]}", 2,
+     "has length 2", "[0, 0, 0, 1]"},
     {"AxisWithoutLength",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"orientation\": {\n\"axis_angle\": [0, 0, 0, 90]}}]}", 2, "no length",
-     "but zero"},
+     "{\"plumb_scene\": 1, \"bodies\": [{\"orientation\": {\n\"axis_angle\": [0, 0, 0, 90]}}]}", 2,
+     "no length", "but zero"},
     {"OrientationTwice",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"orientation\":\n{\"axis_angle\": [0, 1, 0, 90], \"quaternion\": [0, 0, "
+     "{\"plumb_scene\": 1, \"bodies\": [{\"orientation\":\n{\"axis_angle\": [0, 1, 0, 90], "
+     "\"quaternion\": [0, 0, "
      "0, 1]}}]}",
      2, "in several ways", "give one of"},
-    {"DuplicateName",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"a\"},\n{\"name\": \"a\"}]}", 2, "another body named 'a'",
-     "name of its own"},
-    {"BracketInName", "{\"plumb_scene\": 1, \"bodies\": [{\n\"name\": \"a[0]\"}]}", 2, "cannot be the name",
-     "no '['"},
-    {"UnknownType", "{\"plumb_scene\": 1, \"bodies\": [{\n\"type\": \"dinamic\"}]}", 2, "is 'dinamic'",
-     "did you mean 'dynamic'?"},
-    {"UnknownLock", "{\"plumb_scene\": 1, \"bodies\": [{\"locks\": [\n\"linear_w\"]}]}", 2, "'linear_w'",
-     "did you mean 'linear_"},
+    {"DuplicateName", "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"a\"},\n{\"name\": \"a\"}]}",
+     2, "another body named 'a'", "name of its own"},
+    {"BracketInName", "{\"plumb_scene\": 1, \"bodies\": [{\n\"name\": \"a[0]\"}]}", 2,
+     "cannot be the name", "no '['"},
+    {"UnknownType", "{\"plumb_scene\": 1, \"bodies\": [{\n\"type\": \"dinamic\"}]}", 2,
+     "is 'dinamic'", "did you mean 'dynamic'?"},
+    {"UnknownLock", "{\"plumb_scene\": 1, \"bodies\": [{\"locks\": [\n\"linear_w\"]}]}", 2,
+     "'linear_w'", "did you mean 'linear_"},
     {"RepeatWithoutCount", "{\"plumb_scene\": 1, \"bodies\": [{\"repeat\":\n{\"seed\": 1}}]}", 2,
      "has no 'count'", "[4, 1, 4]"},
-    {"RepeatNothing", "{\"plumb_scene\": 1, \"bodies\": [{\"repeat\": {\n\"count\": [1, 0, 1]}}]}", 2,
-     "whole numbers >= 1", "[4, 1, 4]"},
+    {"RepeatNothing", "{\"plumb_scene\": 1, \"bodies\": [{\"repeat\": {\n\"count\": [1, 0, 1]}}]}",
+     2, "whole numbers >= 1", "[4, 1, 4]"},
     {"RepeatTooMuch",
      "{\"plumb_scene\": 1, \"bodies\": [\n{\"repeat\": {\"count\": [1000, 1000, 2]}}]}", 2,
      "more than 1000000 bodies", "lower the count"},
@@ -138,7 +148,8 @@ const BadScene kBadScenes[] = {
      "{\"plumb_scene\": 1, \"bodies\": [{\n\"mass\": {\"mass\": 1, \"inertia\": [1, 1, 5]}}]}", 2,
      "mass of body 'body 0'", ""},
     {"LayerTooHigh",
-     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": 1,\n\"layers\": "
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1,\n\"layers\": "
      "[32]}]}]}",
      2, "not a list of layers", "from 0 to 31"},
 };
@@ -149,7 +160,8 @@ INSTANTIATE_TEST_SUITE_P(All, SceneErrors, testing::ValuesIn(kBadScenes),
 // Several mistakes are told in one go, in the order of the file.
 TEST(SceneErrorList, TellsAllInOrder) {
   const auto scene = parse_scene(
-      "{\"plumb_scene\": 1,\n\"bodies\": [{\n\"tipe\": \"static\",\n\"position\": 3}],\n\"nam\": \"x\"}",
+      "{\"plumb_scene\": 1,\n\"bodies\": [{\n\"tipe\": \"static\",\n\"position\": 3}],\n\"nam\": "
+      "\"x\"}",
       "bad.json");
   const std::string error = scene.error();
   const std::size_t third = error.find("bad.json:3: ");

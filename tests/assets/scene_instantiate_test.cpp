@@ -29,7 +29,8 @@ TEST(SceneInstantiate, BuildsWhatIsWritten) {
       "colliders": [{ "shape": "box", "half_extents": [1, 2, 4], "material": "ice", "density": 2,
                       "layers": [3], "collides_with": [0, 31] }]
     }]
-  })", "test.json");
+  })",
+                                 "test.json");
   ASSERT_TRUE(scene.ok()) << scene.error();
   PhysicsWorld world;
   const auto instance = instantiate(*scene, world);
@@ -47,9 +48,10 @@ TEST(SceneInstantiate, BuildsWhatIsWritten) {
   EXPECT_EQ(body.angular_velocity, Vec3(7, 0, 9));
   EXPECT_EQ(body.gravity_scale, Real(0.5));
   EXPECT_TRUE(body.locks.linear_z && body.locks.angular_y);
-  EXPECT_FALSE(body.locks.linear_x || body.locks.linear_y || body.locks.angular_x || body.locks.angular_z);
-  // A quarter turn about the fixed x axis, then one about z, takes y to z, where it stays, and x to y.
-  // Tolerance: a few roundings of the number type.
+  EXPECT_FALSE(body.locks.linear_x || body.locks.linear_y || body.locks.angular_x ||
+               body.locks.angular_z);
+  // A quarter turn about the fixed x axis, then one about z, takes y to z, where it stays, and x to
+  // y. Tolerance: a few roundings of the number type.
   const Real rounding = 8 * std::numeric_limits<Real>::epsilon();
   EXPECT_LT((body.pose.orientation * Vec3::UnitY() - Vec3::UnitZ()).norm(), rounding);
   EXPECT_LT((body.pose.orientation * Vec3::UnitX() - Vec3::UnitY()).norm(), rounding);
@@ -65,8 +67,8 @@ TEST(SceneInstantiate, BuildsWhatIsWritten) {
   EXPECT_EQ(world.mass_properties(id).mass, 128);
 }
 
-// The mass of a mesh body is that of the mesh and not that of the hull it collides as, and a density
-// or a mass in the scene scales it.
+// The mass of a mesh body is that of the mesh and not that of the hull it collides as, and a
+// density or a mass in the scene scales it.
 TEST(SceneInstantiate, MeshBodiesWeighWhatTheMeshWeighs) {
   const auto scene = parse_scene(R"({
     "plumb_scene": 1,
@@ -81,7 +83,8 @@ TEST(SceneInstantiate, MeshBodiesWeighWhatTheMeshWeighs) {
         "colliders": [{ "shape": "mesh", "mesh": "torus", "position": [-1, 0, 0] },
                       { "shape": "mesh", "mesh": "torus", "position": [1, 0, 0] }] }
     ]
-  })", "test.json", kScenes);
+  })",
+                                 "test.json", kScenes);
   ASSERT_TRUE(scene.ok()) << scene.error();
   PhysicsWorld world;
   const auto instance = instantiate(*scene, world);
@@ -96,7 +99,8 @@ TEST(SceneInstantiate, MeshBodiesWeighWhatTheMeshWeighs) {
   EXPECT_LT((dense.I_Bcm_B / 3 - plain.I_Bcm_B).norm(), rounding * plain.I_Bcm_B.norm());
   const MassProperties given = world.mass_properties(instance->find("given"));
   EXPECT_NEAR(given.mass, 7, 7 * rounding);
-  EXPECT_LT((given.I_Bcm_B * (plain.mass / 7) - plain.I_Bcm_B).norm(), rounding * plain.I_Bcm_B.norm());
+  EXPECT_LT((given.I_Bcm_B * (plain.mass / 7) - plain.I_Bcm_B).norm(),
+            rounding * plain.I_Bcm_B.norm());
   // Two of them 1 m off the centre: twice the inertia about x, plus 2 m (1 m)^2 about y and z.
   const MassProperties pair = world.mass_properties(instance->find("pair"));
   Eigen::Matrix3d expected = 2 * plain.I_Bcm_B;
@@ -122,7 +126,8 @@ TEST(SceneInstantiate, LeavesTheWorldAloneOnAnError) {
       "none": { "file": "nothing.obj", "collision": "hull" } },
     "bodies": [{ "name": "first", "colliders": [{ "shape": "sphere", "radius": 1 }] },
                { "name": "second", "colliders": [{ "shape": "mesh", "mesh": "none" }] }]
-  })", "test.json", kScenes);
+  })",
+                                 "test.json", kScenes);
   ASSERT_TRUE(scene.ok()) << scene.error();
   const auto instance = instantiate(*scene, world);
   ASSERT_FALSE(instance.ok());
@@ -159,13 +164,15 @@ TEST(SceneRepeat, StandsOnTheGridWithinTheJitter) {
   EXPECT_NE(assets::scene::places_of(repeat)[23].offset, places[23].offset);
 }
 
-// The mean of many uniform rotations of any direction is zero: 4 standard deviations of 1/sqrt(3 n).
+// The mean of many uniform rotations of any direction is zero: 4 standard deviations of 1/sqrt(3
+// n).
 TEST(SceneRepeat, TurnsUniformly) {
   assets::SceneRepeat repeat;
   repeat.count = {10000, 1, 1};
   repeat.random_orientation = true;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& place : assets::scene::places_of(repeat)) mean += place.turn * Eigen::Vector3d::UnitX();
+  for (const auto& place : assets::scene::places_of(repeat))
+    mean += place.turn * Eigen::Vector3d::UnitX();
   mean /= 10000;
   EXPECT_LT(mean.cwiseAbs().maxCoeff(), 4 / std::sqrt(3 * 10000.0));
 }

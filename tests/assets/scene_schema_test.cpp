@@ -41,7 +41,9 @@ TEST(SceneSchema, KnowsTheKeysOfTheLoader) {
     if (!definition.contains("properties")) continue;
     const auto& all = scene_keys::keys::kAll;
     const std::string& wanted = name;
-    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const auto& o) { return o.name == wanted; })) << name;
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const auto& o) {
+      return o.name == wanted;
+    })) << name;
   }
 }
 
@@ -83,7 +85,8 @@ TEST(SceneSchema, TellsTheDefaultsOfTheLoader) {
                {"settings", json::object()},
                {"materials", {{"m", json::object()}}},
                {"meshes", {{"k", {{"file", "k.obj"}, {"collision", "hull"}}}}}};
-  json body = {{"name", "b"}, {"type", "static"}, {"colliders", json::array({{{"shape", "half_space"}}})}};
+  json body = {
+      {"name", "b"}, {"type", "static"}, {"colliders", json::array({{{"shape", "half_space"}}})}};
   body["repeat"] = {{"count", {2, 1, 1}}};
   bare["bodies"] = json::array({body});
 
