@@ -97,7 +97,8 @@ struct ContactRow {
   unsigned loaded = 0;                   // bit i: point i carried load in the last substep
   bool skip = false;                     // a bounce takes care of it in this substep
   bool at_rest = false;
-  int bounces = 0;  // in this substep
+  bool bounced = false;  // in this step
+  int bounces = 0;       // in this substep
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -332,6 +332,7 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
   deflect(impacts, row.body_a, A, A.v - va_before, t);
   deflect(impacts, row.body_b, B, B.v - vb_before, t);
   ++row.bounces;
+  row.bounced = true;
   ++world.report.impacts;
 }
 

@@ -84,18 +84,16 @@ void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, Real warm)
   }
 }
 
-// A contact sinks by g/w^2 under its load. For every size to sink the same fraction, w^2 must
-// follow g / thickness; the damping ratio follows it upwards, so that overlap is not worked off
-// faster, only held more stiffly: sequential impulses tremble when small bodies are pushed apart
-// too eagerly.
+// A contact sinks by g/w^2 under its load. For no size to sink more than its share, w^2 must follow
+// g / thickness; the damping ratio follows it upwards, so that overlap is not worked off faster,
+// only held more stiffly: sequential impulses tremble when small bodies are pushed apart too
+// eagerly.
 Softness contact_softness(const WorldState& world, Real thickness, bool against_fixed) {
-  const Real g = static_cast<Real>(world.settings.gravity.norm());
-  const Real pull = std::max(g / thickness, tolerance::kSlowestPull);
-  const Real stiffer = std::sqrt(pull / tolerance::kReferencePull);
+  const Real pull = static_cast<Real>(world.settings.gravity.norm()) / thickness;
+  const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
   const Real frequency = world.settings.contact_frequency * stiffer *
                          (against_fixed ? tolerance::kStaticStiffness : Real(1));
-  return make_softness(frequency, world.settings.contact_damping_ratio * std::max(stiffer, Real(1)),
-                       world.h);
+  return make_softness(frequency, world.settings.contact_damping_ratio * stiffer, world.h);
 }
 
 // Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points

@@ -87,7 +87,7 @@ void note_contact_events(WorldState& world) {
 // bounce.
 void note_hits(WorldState& world) {
   for (const ContactRow<Real>& row : world.rows) {
-    if (row.restitution > Real(0) && row.bounces > 0) continue;
+    if (row.bounced) continue;
     const Pair& pair = world.pairs[row.pair];
     if (pair.was_touching || row.approach_speed <= tolerance::kBounceCutResting * row.cut_unit)
       continue;

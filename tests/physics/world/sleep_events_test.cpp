@@ -233,7 +233,7 @@ TEST(Events, EveryBeginHasItsEnd) {
   run(world, 4, kDt, [&] {
     for (; seen < events.contacts.size(); ++seen) {
       const ContactEvent& e = events.contacts[seen];
-      const auto key = std::minmax(e.a.value(), e.b.value());
+      const auto key = std::minmax({e.a.value(), e.b.value()});
       int& count = open[key];
       count += e.kind == ContactEvent::Kind::Begin ? 1 : -1;
       ASSERT_TRUE(count == 0 || count == 1);
@@ -248,7 +248,7 @@ TEST(Events, EveryBeginHasItsEnd) {
   world.step(kDt);
   for (; seen < events.contacts.size(); ++seen) {
     const ContactEvent& e = events.contacts[seen];
-    open[std::minmax(e.a.value(), e.b.value())] += e.kind == ContactEvent::Kind::Begin ? 1 : -1;
+    open[std::minmax({e.a.value(), e.b.value()})] += e.kind == ContactEvent::Kind::Begin ? 1 : -1;
   }
   for (const auto& [pair, count] : open) EXPECT_EQ(count, 0);
 }
