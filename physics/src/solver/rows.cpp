@@ -84,16 +84,15 @@ void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, Real warm)
   }
 }
 
-// A contact sinks by g/w^2 under its load. For no size to sink more than its share, w^2 must follow
-// g / thickness; the damping ratio follows it upwards, so that overlap is not worked off faster,
-// only held more stiffly: sequential impulses tremble when small bodies are pushed apart too
-// eagerly.
+// A contact sinks by g/w^2 under its load: for no size to sink more than its share, w^2 must follow
+// g / thickness, as far as the substep allows [Catto 2024].
 Softness contact_softness(const WorldState& world, Real thickness, bool against_fixed) {
   const Real pull = static_cast<Real>(world.settings.gravity.norm()) / thickness;
   const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
-  const Real frequency = world.settings.contact_frequency * stiffer *
-                         (against_fixed ? tolerance::kStaticStiffness : Real(1));
-  return make_softness(frequency, world.settings.contact_damping_ratio * stiffer, world.h);
+  const Real frequency =
+      std::min(world.settings.contact_frequency * stiffer, tolerance::kStiffestContact / world.h);
+  return make_softness(frequency * (against_fixed ? tolerance::kStaticStiffness : Real(1)),
+                       world.settings.contact_damping_ratio, world.h);
 }
 
 // Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points

@@ -33,6 +33,10 @@ inline constexpr Real kStaticStiffness = Real(2);
 // 0.28 mm, 1 % of 28 mm. Smaller ones (or heavier gravity) get stiffer contacts, to sink no more.
 inline constexpr Real kReferencePull = Real(350);
 
+// No contact gets a frequency above this many times the substep rate [-]: a stiffer spring could not
+// be followed. [Catto 2024]
+inline constexpr Real kStiffestContact = Real(0.25);
+
 // In steps that begin with overlap above this many slops [-] the velocities are relaxed more often,
 // so that what pushes bodies apart does not throw them.
 inline constexpr Real kDeepSlops = Real(10);
