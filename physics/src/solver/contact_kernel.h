@@ -173,6 +173,11 @@ inline void solve_normal(ContactRow<T>& row, const SeparationChange<T>& change, 
   apply_wrench(row, p0 * row.n, p1 * row.t1 + p2 * row.t2, u);
 }
 
+// Smallest determinant, relative to the square of the larger eigenvalue, at which the two
+// tangential directions can be solved together [-].
+template <class T>
+inline constexpr T kSingularFor = T(1e-6);
+
 // Coulomb friction on the true circular cone, point by point: if the impulse that stops the slip
 // lies inside the disc of radius mu * normal impulse it is taken (stick). Otherwise a projected
 // step with the larger eigenvalue of the response follows, whose fixed point opposes the slip
@@ -189,24 +194,28 @@ inline void solve_friction(ContactRow<T>& row, RowVelocities<T>& u, T& load, T& 
     auto& point = row.points[i];
     const T limit = row.friction * point.impulse;
     const T v1 = x - point.b * z, v2 = y + point.a * z;
+    const T half_trace = T(0.5) * (point.k11 + point.k22);
+    const T half_difference = T(0.5) * (point.k11 - point.k22);
+    const T k = half_trace + std::sqrt(half_difference * half_difference + point.k12 * point.k12);
     const T determinant = point.k11 * point.k22 - point.k12 * point.k12;
+    // Motion locks may leave one direction only: there is nothing to stop in the other.
+    const bool regular = determinant > kSingularFor<T> * k * k;
     T f1 = T(0), f2 = T(0);
     T share = T(1);
-    if (limit > T(0) && determinant > T(0)) {
-      f1 = point.friction1 - (point.k22 * v1 - point.k12 * v2) / determinant;
-      f2 = point.friction2 - (point.k11 * v2 - point.k12 * v1) / determinant;
-      const T size = std::sqrt(f1 * f1 + f2 * f2);
-      if (size > limit) {
-        const T half_trace = T(0.5) * (point.k11 + point.k22);
-        const T half_difference = T(0.5) * (point.k11 - point.k22);
-        const T k =
-            half_trace + std::sqrt(half_difference * half_difference + point.k12 * point.k12);
+    if (limit > T(0) && k > T(0)) {
+      if (regular) {
+        f1 = point.friction1 - (point.k22 * v1 - point.k12 * v2) / determinant;
+        f2 = point.friction2 - (point.k11 * v2 - point.k12 * v1) / determinant;
+      }
+      T size = std::sqrt(f1 * f1 + f2 * f2);
+      if (!regular || size > limit) {
         f1 = point.friction1 - v1 / k;
         f2 = point.friction2 - v2 / k;
-        const T slide = std::sqrt(f1 * f1 + f2 * f2);
-        const T scale = slide > limit ? limit / slide : T(1);
+        size = std::sqrt(f1 * f1 + f2 * f2);
+        const T scale = size > limit ? limit / size : T(1);
         f1 *= scale;
         f2 *= scale;
+        if (!regular && size < limit) share = size / limit;
       } else {
         share = size / limit;
       }

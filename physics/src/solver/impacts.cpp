@@ -297,11 +297,12 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
       if (!(row.friction > Real(0))) continue;
       const Vec v = relative(p);
       const Real k11 = response(t1, t1, p), k12 = response(t1, t2, p), k22 = response(t2, t2, p);
-      const Real determinant = k11 * k22 - k12 * k12;
-      if (!(determinant > Real(0))) continue;
+      const Real determinant = k11 * k22 - k12 * k12, trace = k11 + k22;
+      if (!(trace > Real(0))) continue;
       const Real v1 = dot(t1, v), v2 = dot(t2, v);
-      Real f1 = p.l_1 - (k22 * v1 - k12 * v2) / determinant;
-      Real f2 = p.l_2 - (k11 * v2 - k12 * v1) / determinant;
+      const bool regular = determinant > kSingularFor<Real> * trace * trace;
+      Real f1 = p.l_1 - (regular ? (k22 * v1 - k12 * v2) / determinant : v1 / trace);
+      Real f2 = p.l_2 - (regular ? (k11 * v2 - k12 * v1) / determinant : v2 / trace);
       const Real limit = row.friction * p.l_n, size = std::sqrt(f1 * f1 + f2 * f2);
       if (size > limit) {
         f1 *= limit / size;

@@ -30,11 +30,11 @@ inline constexpr Real kPushRate = Real(2);
 inline constexpr Real kStaticStiffness = Real(2);
 
 // Up to this g / thickness [1/s^2] contacts have the settings' frequency: at 30 Hz a body sinks by
-// 0.28 mm, 1 % of 28 mm. Smaller ones (or heavier gravity) get stiffer contacts, to sink no more.
-inline constexpr Real kReferencePull = Real(350);
+// 0.28 mm, 0.3 % of 10 cm. Smaller ones (or heavier gravity) get stiffer contacts, to sink no more.
+inline constexpr Real kReferencePull = Real(98);
 
-// No contact gets a frequency above this many times the substep rate [-]: a stiffer spring could not
-// be followed. [Catto 2024]
+// No contact gets a frequency above this many times the substep rate [-]: a stiffer spring could
+// not be followed. [Catto 2024]
 inline constexpr Real kStiffestContact = Real(0.25);
 
 // In steps that begin with overlap above this many slops [-] the velocities are relaxed more often,
