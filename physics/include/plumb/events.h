@@ -63,4 +63,11 @@ struct ContactState {
   Point points[4];
 };
 
+// One point of a touching pair, for whoever draws or counts them.
+struct ContactPoint {
+  Pos3 position = Pos3::Zero();  // [m] world
+  Vec3 normal = Vec3::UnitY();   // from A to B
+  Real normal_impulse = 0;       // [N s] over the whole step, >= 0
+};
+
 }  // namespace plumb::inline PLUMB_ABI

@@ -113,6 +113,7 @@ class PhysicsWorld {
   void copy_body_states(std::vector<BodyState>& out) const;
   void copy_moved_body_states(std::vector<BodyState>& out) const;  // only those the last step moved
   void copy_contacts(std::vector<ContactState>& out) const;
+  void copy_contact_points(std::vector<ContactPoint>& out) const;  // the same, without whose
   [[nodiscard]] EnergyReport energy() const;
 
   // --- queries ---------------------------------------------------------------------------------

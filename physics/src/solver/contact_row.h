@@ -96,6 +96,7 @@ struct ContactRow {
   T cut_unit = T(0);                     // [m/s] |relative acceleration| h: unit of the bounce cuts
   unsigned loaded = 0;                   // bit i: point i carried load in the last substep
   bool skip = false;                     // a bounce takes care of it in this substep
+  bool keeps_apart = false;              // it bounced off in this substep: approach is stopped
   bool at_rest = false;
   bool bounced = false;  // in this step
   int bounces = 0;       // in this substep

@@ -234,8 +234,10 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
 
   struct Point {
     Vec ra, rb;
-    Real wanted, k_n, l_n, l_1, l_2;
-    int index;
+    Real wanted = 0, k_n = 0;        // [m/s], [1/kg]
+    Real k11 = 0, k12 = 0, k22 = 0;  // [1/kg] tangential response
+    Real l_n = 0, l_1 = 0, l_2 = 0;  // [N s]
+    int index = 0;
   };
   Point points[ContactRow<Real>::kMaxPoints];
   int count = 0;
@@ -260,7 +262,9 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
              side.surface;
     };
     Point& p = points[count++];
-    p = {arm(A), arm(B), 0, 0, 0, 0, 0, i};
+    p.ra = arm(A);
+    p.rb = arm(B);
+    p.index = i;
     if (row.both_dynamic) {  // one common point keeps the angular momentum
       const Vec apart = row.between + world.delta[row.body_b].dp - world.delta[row.body_a].dp +
                         t * (B.v - A.v) -
@@ -273,6 +277,9 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
     const Real vn = dot(n, relative(p));
     p.wanted = -row.restitution * std::min(vn, Real(0));
     p.k_n = response(n, n, p);
+    p.k11 = response(t1, t1, p);
+    p.k12 = response(t1, t2, p);
+    p.k22 = response(t2, t2, p);
     approach = std::max(approach, -vn);
   }
   const auto push = [&](Vec impulse, const Point& p) {
@@ -296,13 +303,12 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
       largest = std::max(largest, total);
       if (!(row.friction > Real(0))) continue;
       const Vec v = relative(p);
-      const Real k11 = response(t1, t1, p), k12 = response(t1, t2, p), k22 = response(t2, t2, p);
-      const Real determinant = k11 * k22 - k12 * k12, trace = k11 + k22;
+      const Real determinant = p.k11 * p.k22 - p.k12 * p.k12, trace = p.k11 + p.k22;
       if (!(trace > Real(0))) continue;
       const Real v1 = dot(t1, v), v2 = dot(t2, v);
       const bool regular = determinant > kSingularFor<Real> * trace * trace;
-      Real f1 = p.l_1 - (regular ? (k22 * v1 - k12 * v2) / determinant : v1 / trace);
-      Real f2 = p.l_2 - (regular ? (k11 * v2 - k12 * v1) / determinant : v2 / trace);
+      Real f1 = p.l_1 - (regular ? (p.k22 * v1 - p.k12 * v2) / determinant : v1 / trace);
+      Real f2 = p.l_2 - (regular ? (p.k11 * v2 - p.k12 * v1) / determinant : v2 / trace);
       const Real limit = row.friction * p.l_n, size = std::sqrt(f1 * f1 + f2 * f2);
       if (size > limit) {
         f1 *= limit / size;
@@ -352,16 +358,19 @@ void share_with_contact_solver(Impacts& impacts) {
       closing_at_end = std::max(closing_at_end, -(motion.v + a * h));
       gap_at_end = std::min(gap_at_end, motion.s + h * (motion.v + Real(0.5) * a * h));
     }
-    const bool left_by_bounce = row.bounces > 0 && closing_now < Real(0) &&
-                                (gap_at_end > Real(0) || closing_at_end < Real(0));
+    const bool bounced_away = row.bounces > 0 && closing_now < Real(0);
+    // Apart at the end although it turns back: the contact solver knows only where the shifted path
+    // starts, and would stop it there.
+    const bool turns_back = bounced_away && closing_at_end >= Real(0) && gap_at_end > Real(0);
     // Not yet there, or too fast to be stopped: it bounces in a later substep. (The contact solver
     // ends a substep at v h + a h^2, half an a h^2 too deep, and would stop it just before it
     // touches.)
     const bool will_bounce =
         !row.at_rest && row.bounces < tolerance::kMaxBouncesPerSubstep &&
         (gap_at_end > Real(0) || closing_at_end > impacts.cut(row) + row.cut_unit);
-    row.skip = left_by_bounce || will_bounce;
-    if (row.skip) {
+    row.skip = turns_back || will_bounce;
+    row.keeps_apart = bounced_away && !row.skip;
+    if (row.skip || row.keeps_apart) {
       row.at_rest = false;
       for (int i = 0; i < row.count; ++i) {
         row.points[i].impulse = row.points[i].friction1 = row.points[i].friction2 = Real(0);
@@ -372,6 +381,9 @@ void share_with_contact_solver(Impacts& impacts) {
   for (ContactRow<Real>& row : world.rows) {
     const bool shifted = world.substep[row.body_a].bounced || world.substep[row.body_b].bounced;
     row.push_speed_now = shifted ? std::min(row.push_speed, row.cut_unit) : row.push_speed;
+    // Of what has just bounced off nothing is left to do, unless others press it back.
+    if (row.keeps_apart) row.push_speed_now = Real(0);
+    row.keeps_apart = false;
   }
 }
 

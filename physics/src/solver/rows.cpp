@@ -212,7 +212,10 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.impulse_scale = softness.impulse_scale;
   row.push_speed = tolerance::kPushRate * thickness;
   row.push_speed_now = row.push_speed;
-  row.at_rest = contact.at_rest;
+  // What overlaps is no collision to come: it must approach faster than resting bodies to bounce.
+  Real deepest = 0;
+  for (int i = 0; i < row.count; ++i) deepest = std::max(deepest, -row.points[i].separation);
+  row.at_rest = contact.at_rest || deepest > pair.slop;
 
   // As the step begins: how fast do the surfaces approach, and what does a substep add to that?
   const BodyVelocity& va = bodies.velocity[row.body_a];

@@ -56,6 +56,20 @@ void append_contacts(const WorldState& world, const Pair& pair, const std::vecto
   }
 }
 
+void append_points(const WorldState& world, const Pair& pair, const std::vector<Contact>& store,
+                   std::vector<ContactPoint>& out) {
+  if (pair.contact_count == 0 || !pair.was_touching) return;
+  const std::uint32_t reference =
+      world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
+  const PosVec origin = world.bodies.pose[reference].x;
+  for (const Contact& from : contacts_of(pair, store)) {
+    const Vec3 normal = to_public(from.manifold.normal);
+    for (int i = 0; i < from.manifold.count; ++i)
+      out.push_back({to_public_position(origin + cast<PosReal>(from.manifold.points[i].position)),
+                     normal, from.step_normal_impulse[i]});
+  }
+}
+
 }  // namespace
 }  // namespace detail
 
@@ -167,6 +181,15 @@ void PhysicsWorld::copy_contacts(std::vector<ContactState>& out) const {
   for (const detail::SleepingIsland& island : state_->islands)
     for (const detail::Pair& pair : island.pairs)
       detail::append_contacts(*state_, pair, island.contacts, out);
+}
+
+void PhysicsWorld::copy_contact_points(std::vector<ContactPoint>& out) const {
+  out.clear();
+  for (const detail::Pair& pair : state_->pairs)
+    detail::append_points(*state_, pair, state_->contacts, out);
+  for (const detail::SleepingIsland& island : state_->islands)
+    for (const detail::Pair& pair : island.pairs)
+      detail::append_points(*state_, pair, island.contacts, out);
 }
 
 EnergyReport PhysicsWorld::energy() const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plumb/world.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -16,12 +17,12 @@ constexpr double kLongestArrow = 6;
 // Without gravity a body's "weight" is taken as its mass times this [m/s^2].
 constexpr double kStandardGravity = 9.81;
 
-double mean_mass(const Frame& frame) {
+double mean_mass(const PhysicsWorld& world, const Frame& frame) {
   double sum = 0;
   std::size_t count = 0;
   for (const BodyState& body : frame.bodies) {
     if (body.type != MotionType::Dynamic) continue;
-    sum += frame.world.mass_properties(body.id).mass;
+    sum += world.mass_properties(body.id).mass;
     ++count;
   }
   return count && sum > 0 ? sum / static_cast<double>(count) : 1;
@@ -50,34 +51,29 @@ ContactMarks::ContactMarks() : points_("contacts/points"), arrows_("contacts/nor
   arrows_.add_column<float>("Arrows3D:vectors", 3);
 }
 
-void ContactMarks::send_looks(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent) {
-  double gravity = frame.world.settings().gravity.template cast<double>().norm();
+void ContactMarks::send_looks(rrd::Writer& writer, const PhysicsWorld& world, const Frame& frame,
+                              const SceneExtent& extent) {
+  double gravity = world.settings().gravity.template cast<double>().norm();
   if (gravity == 0) gravity = kStandardGravity;
-  meters_per_newton_ = extent.body_radius / (mean_mass(frame) * gravity);
+  meters_per_newton_ = extent.body_radius / (mean_mass(world, frame) * gravity);
   longest_ = kLongestArrow * extent.body_radius;
   const double size = extent.body_radius;
   send_look(writer, points_.entity(), "Points3D", size * kPointRadius, kPointColor);
   send_look(writer, arrows_.entity(), "Arrows3D", size * kArrowRadius, kArrowColor);
 }
 
-void ContactMarks::add(const Frame& frame, double dt) {
-  frame.world.copy_contacts(contacts_);
-  std::size_t count = 0;
-  for (const ContactState& contact : contacts_)
-    count += static_cast<std::size_t>(contact.point_count);
+void ContactMarks::add(const Frame& frame) {
+  const double dt = frame.report.dt;
+  const std::size_t count = frame.contacts.size();
   auto* point = points_.column(0).extend<float>(count);
   auto* origin = arrows_.column(0).extend<float>(count);
   auto* vector = arrows_.column(1).extend<float>(count);
-  for (const ContactState& contact : contacts_) {
-    for (int i = 0; i < contact.point_count; ++i) {
-      const ContactState::Point& at = contact.points[i];
-      const double force = dt > 0 ? double{at.normal_impulse} / dt : 0;
-      const auto length = static_cast<Real>(std::min(force * meters_per_newton_, longest_));
-      point = write_point(point, at.position);
-      origin = write_point(origin, at.position);
-      for (Eigen::Index k = 0; k < 3; ++k)
-        *vector++ = static_cast<float>(contact.normal[k] * length);
-    }
+  for (const ContactPoint& at : frame.contacts) {
+    const double force = dt > 0 ? double{at.normal_impulse} / dt : 0;
+    const auto length = static_cast<Real>(std::min(force * meters_per_newton_, longest_));
+    point = write_point(point, at.position);
+    origin = write_point(origin, at.position);
+    for (Eigen::Index k = 0; k < 3; ++k) *vector++ = static_cast<float>(at.normal[k] * length);
   }
   points_.end_row(frame.number, frame.time);
   arrows_.end_row(frame.number, frame.time);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "plumb/world.h"
 #include "record/frame.h"
 #include "record/visuals.h"
 #include "rrd/table.h"
@@ -15,13 +16,13 @@ class ContactMarks {
  public:
   ContactMarks();
 
-  void send_looks(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent);
-  void add(const Frame& frame, double dt);
+  void send_looks(rrd::Writer& writer, const PhysicsWorld& world, const Frame& frame,
+                  const SceneExtent& extent);
+  void add(const Frame& frame);
   void send(rrd::Writer& writer);
 
  private:
   rrd::Table points_, arrows_;
-  std::vector<ContactState> contacts_;
   double meters_per_newton_ = 0;  // [m/N]
   double longest_ = 0;            // [m] of an arrow
 };

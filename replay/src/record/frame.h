@@ -1,20 +1,38 @@
-// One moment of the world as the parts of the recorder see it.
+// One moment of the world, copied, so that it can be encoded while the world goes on.
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <optional>
+#include <vector>
 
+#include "plumb/events.h"
+#include "plumb/inputs.h"
+#include "plumb/report.h"
 #include "plumb/rigid_body.h"
-#include "plumb/world.h"
+#include "plumb/snapshot.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 
 struct Frame {
-  const PhysicsWorld& world;
-  std::uint64_t number;               // of the last step
-  double time;                        // [s] after it
-  std::span<const BodyState> bodies;  // all, in order of their index
+  std::uint64_t number = 0;              // of the last step
+  double time = 0;                       // [s] after it
+  std::vector<BodyState> bodies;         // all, in order of their index
+  std::vector<ContactPoint> contacts;    // of touching pairs
+  std::vector<InputRecord> inputs;       // given before the step
+  std::vector<HitEvent> hits;            // what happened in it
+  std::vector<ContactEvent> touches;     //
+  std::vector<SensorEvent> sensors;      //
+  std::vector<SleepEvent> sleep;         //
+  std::vector<QuarantineEvent> refused;  //
+  StepReport report;
+  EnergyReport energy;
+  std::uint64_t state_hash = 0;
+  bool profiled = false;             // the report has the stages' times
+  bool moved = false;                // false: the step was refused, or of no length
+  std::optional<Snapshot> snapshot;  // after the step
+
+  [[nodiscard]] Events events() const { return {touches, hits, sensors, sleep, refused}; }
 };
 
 }  // namespace replay::detail

@@ -52,8 +52,9 @@ void Plots::add_row(rrd::Table& table, const Frame& frame, std::span<const doubl
   table.end_row(frame.number, frame.time);
 }
 
-void Plots::add(const Frame& frame, const StepReport& report) {
-  const EnergyReport energy = frame.world.energy();
+void Plots::add(const Frame& frame) {
+  const StepReport& report = frame.report;
+  const EnergyReport& energy = frame.energy;
   add_row(
       energy_, frame,
       std::array{energy.total(), energy.kinetic_linear, energy.kinetic_angular, energy.potential});
@@ -62,7 +63,7 @@ void Plots::add(const Frame& frame, const StepReport& report) {
               static_cast<double>(report.awake_bodies), static_cast<double>(report.touching_pairs),
               static_cast<double>(report.contact_points), static_cast<double>(report.islands)});
   add_row(overlap_, frame, std::array{report.largest_penetration * kMillimetersPerMeter});
-  if (frame.world.settings().profiling) {
+  if (frame.profiled) {
     std::array<double, kStageCount> milliseconds{};
     for (std::size_t i = 0; i < kStageCount; ++i)
       milliseconds[i] = report.stage_seconds[i] * kMillisecondsPerSecond;

@@ -11,7 +11,7 @@ class Plots {
  public:
   Plots();
   void send_names(rrd::Writer& writer);
-  void add(const Frame& frame, const StepReport& report);
+  void add(const Frame& frame);
   void send(rrd::Writer& writer);
 
  private:

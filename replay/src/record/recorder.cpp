@@ -2,12 +2,15 @@
 
 #include <time.h>
 
+#include <atomic>
 #include <chrono>
 #include <exception>
+#include <mutex>
 
 #include "plumb/world.h"
 #include "record/body_table.h"
 #include "record/contact_marks.h"
+#include "record/frame_queue.h"
 #include "record/plots.h"
 #include "record/replay_tables.h"
 #include "record/text_log.h"
@@ -18,26 +21,34 @@
 namespace plumb::inline PLUMB_ABI {
 namespace replay {
 
+// The stepping thread copies each step into a frame; another thread encodes the frames and hands
+// them to the writer. What is encoded with the world at hand, because bodies came or went, waits
+// until the encoder has nothing left to do.
 class Recorder::Run {
  public:
   explicit Run(const RecorderOptions& options)
-      : options_(options), text_log_(options.event_lines_per_step) {}
+      : options_(options),
+        text_log_(options.event_lines_per_step),
+        queue_([this](const detail::Frame& frame) { encode(frame, nullptr); }) {}
 
   Outcome open();
   void attach(const PhysicsWorld& world);
   void step(const StepView& view);
-  void send();
+  Outcome flush(double timeout, bool durable);
+  Outcome close(double timeout);
   void fail(std::string why);
-  [[nodiscard]] Outcome status() const { return failed_.ok() ? writer_.status() : failed_; }
+  [[nodiscard]] Outcome status() const;
 
   rrd::Writer writer_;
   RecorderCost cost_;
   detail::Visuals visuals_;
 
  private:
-  detail::Frame frame_of(const PhysicsWorld& world);
-  void send_looks(const detail::Frame& frame);
-  [[nodiscard]] bool scene_changed(std::span<const InputRecord> inputs) const;
+  void copy(const StepView& view, detail::Frame& frame);
+  // `world`: where it may be looked at; null on the encoding thread.
+  void encode(const detail::Frame& frame, const PhysicsWorld* world);
+  void send();
+  [[nodiscard]] bool scene_changed(const detail::Frame& frame) const;
 
   RecorderOptions options_;
   detail::ReplayTables replay_;
@@ -45,14 +56,17 @@ class Recorder::Run {
   detail::ContactMarks contacts_;
   detail::Plots plots_;
   detail::TextLog text_log_;
-
-  std::vector<BodyState> states_;
   detail::SceneExtent extent_;
-  Outcome failed_;
+  int rows_ = 0;
+
   bool attached_ = false;
   std::uint64_t last_step_ = 0;
-  int rows_ = 0;
   int steps_since_snapshot_ = 0;
+
+  mutable std::mutex failure_mutex_;
+  std::atomic<bool> ok_ = true;
+  Outcome failed_;
+  detail::FrameQueue queue_;  // last: its thread uses all the others
 };
 
 namespace {
@@ -96,38 +110,42 @@ Outcome Recorder::Run::open() {
 }
 
 void Recorder::Run::fail(std::string why) {
-  if (failed_.ok()) failed_ = Outcome::failed(std::move(why));
+  const std::lock_guard lock(failure_mutex_);
+  if (!ok_) return;
+  failed_ = Outcome::failed(std::move(why));
+  ok_ = false;
 }
 
-detail::Frame Recorder::Run::frame_of(const PhysicsWorld& world) {
-  world.copy_body_states(states_);
-  return {world, world.step_count(), world.time(), states_};
-}
-
-void Recorder::Run::send_looks(const detail::Frame& frame) {
-  extent_ = detail::extent_of(frame);
-  detail::send_layout(writer_, extent_, options_);
-  if (options_.contacts) contacts_.send_looks(writer_, frame, extent_);
-  if (options_.plots) plots_.send_names(writer_);
+Outcome Recorder::Run::status() const {
+  if (ok_) return {};
+  const std::lock_guard lock(failure_mutex_);
+  return failed_;
 }
 
 void Recorder::Run::attach(const PhysicsWorld& world) {
-  if (!status().ok()) return;
+  if (!ok_) return;
   if (attached_) return fail("this recorder has recorded a world already: use a new one");
   attached_ = true;
   last_step_ = world.step_count();
-  const detail::Frame frame = frame_of(world);
-  send_looks(frame);
+  detail::Frame frame;
+  frame.number = world.step_count();
+  frame.time = world.time();
+  world.copy_body_states(frame.bodies);
+  extent_ = detail::extent_of(world, frame);
+  detail::send_layout(writer_, extent_, options_);
+  if (options_.contacts) contacts_.send_looks(writer_, world, frame, extent_);
+  if (options_.plots) plots_.send_names(writer_);
   replay_.send_head(writer_, options_, world);
-  replay_.send_snapshot(writer_, world);
-  if (options_.visuals) visuals_.rebuild(writer_, frame, extent_);
+  replay_.send_snapshot(writer_, world.save(), frame.number, frame.time);
+  if (options_.visuals) visuals_.rebuild(writer_, world, frame, extent_);
   if (options_.body_states) bodies_.add(frame);
-  if (options_.text_log) text_log_.add_plan(frame);
+  if (options_.text_log) text_log_.add_plan(world, frame);
+  if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
 }
 
 // Whether something was done that changes what is to be drawn, or where what never moves stands.
-bool Recorder::Run::scene_changed(std::span<const InputRecord> inputs) const {
-  for (const InputRecord& input : inputs) {
+bool Recorder::Run::scene_changed(const detail::Frame& frame) const {
+  for (const InputRecord& input : frame.inputs) {
     switch (input.kind) {
       case InputKind::CreateBody:
       case InputKind::DestroyBody:
@@ -137,7 +155,7 @@ bool Recorder::Run::scene_changed(std::span<const InputRecord> inputs) const {
         return true;
       case InputKind::SetPose: {
         const std::uint32_t index = BodyId::from_value(input.target).index;
-        for (const BodyState& body : states_)
+        for (const BodyState& body : frame.bodies)
           if (body.id.index == index && body.type == MotionType::Static) return true;
         break;
       }
@@ -148,35 +166,81 @@ bool Recorder::Run::scene_changed(std::span<const InputRecord> inputs) const {
   return false;
 }
 
+void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
+  const PhysicsWorld& world = view.world;
+  frame.number = world.step_count();
+  frame.time = world.time();
+  frame.moved = frame.number != last_step_;
+  frame.report = view.report;
+  frame.inputs.assign(view.inputs.begin(), view.inputs.end());
+  const Events& events = view.events;
+  frame.hits.assign(events.hits.begin(), events.hits.end());
+  frame.touches.assign(events.contacts.begin(), events.contacts.end());
+  frame.sensors.assign(events.sensors.begin(), events.sensors.end());
+  frame.sleep.assign(events.sleep.begin(), events.sleep.end());
+  frame.refused.assign(events.quarantined.begin(), events.quarantined.end());
+  frame.snapshot.reset();
+  if (!frame.moved) return;
+  world.copy_body_states(frame.bodies);
+  if (options_.contacts) world.copy_contact_points(frame.contacts);
+  if (options_.plots) frame.energy = world.energy();
+  frame.profiled = world.settings().profiling;
+  frame.state_hash = world.state_hash();
+  if (++steps_since_snapshot_ < options_.snapshot_every) return;
+  steps_since_snapshot_ = 0;
+  frame.snapshot = world.save();
+}
+
 void Recorder::Run::step(const StepView& view) {
-  if (!attached_ || !status().ok()) return;
-  replay_.add_inputs(view.inputs);
-  const detail::Frame frame = frame_of(view.world);
-  if (options_.text_log) text_log_.add_events(frame, view.events, view.report);
+  if (!attached_ || !ok_) return;
   const std::uint64_t step = view.world.step_count();
-  if (step == last_step_) return;  // refused, or of no length: nothing moved
-  if (step != last_step_ + 1)
+  if (step != last_step_ && step != last_step_ + 1) {
+    queue_.drain();  // what came before is sound
     return fail(
         "step " + std::to_string(step) + " follows step " + std::to_string(last_step_) +
         ": the world was restored while it was recorded; use a new recorder for what follows");
+  }
+  std::unique_ptr<detail::Frame> frame = queue_.take_empty();
+  copy(view, *frame);
   last_step_ = step;
+  if (frame->moved) {
+    cost_.steps += 1;
+    cost_.body_steps += frame->bodies.size();
+  }
+  if (frame->moved && scene_changed(*frame)) {
+    queue_.drain();
+    encode(*frame, &view.world);
+  } else {
+    queue_.push(std::move(frame));
+  }
+}
 
-  const bool changed = scene_changed(view.inputs);
-  if (options_.visuals && changed) visuals_.rebuild(writer_, frame, extent_);
-  if (options_.visuals && !changed) visuals_.add(frame);
-  if (options_.text_log && changed) text_log_.add_plan(frame);
-  if (options_.contacts) contacts_.add(frame, view.report.dt);
-  if (options_.plots) plots_.add(frame, view.report);
-  if (options_.body_states) bodies_.add(frame);
-  replay_.add_step(view.report, view.world.state_hash());
-  cost_.steps += 1;
-  cost_.body_steps += frame.bodies.size();
-
-  if (++rows_ >= options_.rows_per_chunk) send();
-  if (++steps_since_snapshot_ >= options_.snapshot_every) {
-    steps_since_snapshot_ = 0;
-    send();  // a snapshot never stands before the steps that lead to it
-    replay_.send_snapshot(writer_, view.world);
+void Recorder::Run::encode(const detail::Frame& frame, const PhysicsWorld* world) {
+  if (!ok_) return;
+  try {
+    replay_.add_inputs(frame.inputs);
+    if (options_.text_log) text_log_.add_events(frame);
+    if (!frame.moved) return;
+    if (options_.visuals) {
+      if (world) {
+        visuals_.rebuild(writer_, *world, frame, extent_);
+      } else {
+        visuals_.add(frame);
+      }
+    }
+    if (options_.text_log && world) text_log_.add_plan(*world, frame);
+    if (options_.contacts) contacts_.add(frame);
+    if (options_.plots) plots_.add(frame);
+    if (options_.body_states) bodies_.add(frame);
+    replay_.add_step(frame.report, frame.state_hash);
+    if (++rows_ >= options_.rows_per_chunk) send();
+    if (frame.snapshot) {
+      send();  // a snapshot never stands before the steps that lead to it
+      replay_.send_snapshot(writer_, *frame.snapshot, frame.number, frame.time);
+    }
+    if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
+  } catch (const std::exception& error) {
+    fail(std::string("recording stopped: ") + error.what());
   }
 }
 
@@ -188,6 +252,23 @@ void Recorder::Run::send() {
   contacts_.send(writer_);
   plots_.send(writer_);
   text_log_.send(writer_);
+}
+
+Outcome Recorder::Run::flush(double timeout, bool durable) {
+  queue_.drain();
+  send();
+  const Outcome flushed = writer_.flush(timeout, durable);
+  if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
+  return flushed.ok() ? status() : flushed;
+}
+
+Outcome Recorder::Run::close(double timeout) {
+  queue_.drain();
+  if (!writer_.is_open()) return status();
+  send();
+  const Outcome closed = writer_.close(timeout);
+  if (!closed.ok()) fail(closed.error);
+  return closed.ok() ? status() : closed;
 }
 
 Recorder::Recorder() = default;
@@ -209,18 +290,11 @@ void Recorder::show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh) {
 }
 
 Outcome Recorder::flush(double timeout, bool durable) {
-  if (!run_) return Outcome::failed("no recording is open");
-  run_->send();
-  const Outcome flushed = run_->writer_.flush(timeout, durable);
-  return flushed.ok() ? run_->status() : flushed;
+  return run_ ? run_->flush(timeout, durable) : Outcome::failed("no recording is open");
 }
 
 Outcome Recorder::close(double timeout) {
-  if (!run_) return Outcome::failed("no recording is open");
-  if (!run_->writer_.is_open()) return run_->status();
-  run_->send();
-  const Outcome closed = run_->writer_.close(timeout);
-  return closed.ok() ? run_->status() : closed;
+  return run_ ? run_->close(timeout) : Outcome::failed("no recording is open");
 }
 
 Outcome Recorder::status() const {

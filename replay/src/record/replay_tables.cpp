@@ -36,9 +36,9 @@ void ReplayTables::send_head(rrd::Writer& writer, const RecorderOptions& options
   head.send_static(writer);
 }
 
-void ReplayTables::send_snapshot(rrd::Writer& writer, const PhysicsWorld& world) {
+void ReplayTables::send_snapshot(rrd::Writer& writer, const Snapshot& snapshot, std::uint64_t step,
+                                 double time) {
   namespace names = schema::snapshot;
-  const Snapshot snapshot = world.save();
   rrd::Table table(names::kEntity);
   const std::size_t version = table.add_column<std::uint32_t>(names::kVersion);
   const std::size_t precision = table.add_text_column(names::kPrecision);
@@ -56,7 +56,7 @@ void ReplayTables::send_snapshot(rrd::Writer& writer, const PhysicsWorld& world)
       table.column(at).append(std::span<const std::uint64_t>(column.integers));
     }
   }
-  table.end_row(world.step_count(), world.time());
+  table.end_row(step, time);
   table.send(writer);
 }
 

@@ -13,7 +13,8 @@ class ReplayTables {
   ReplayTables();
 
   void send_head(rrd::Writer& writer, const RecorderOptions& options, const PhysicsWorld& world);
-  void send_snapshot(rrd::Writer& writer, const PhysicsWorld& world);
+  void send_snapshot(rrd::Writer& writer, const Snapshot& snapshot, std::uint64_t step,
+                     double time);
   // Inputs that were given before a step belong to the row of that step.
   void add_inputs(std::span<const InputRecord> inputs);
   void add_step(const StepReport& report, std::uint64_t state_hash);

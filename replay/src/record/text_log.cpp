@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "plumb/world.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -35,9 +36,9 @@ void TextLog::add_line(const Frame& frame, const char* level, const std::string&
 // Counts an event, and says whether its line is still to be written: the others cost no text.
 bool TextLog::takes_line() { return ++lines_in_step_ <= lines_per_step_; }
 
-void TextLog::add_plan(const Frame& frame) {
+void TextLog::add_plan(const PhysicsWorld& world, const Frame& frame) {
   std::string plan;
-  const StepPlan decided = frame.world.plan();
+  const StepPlan decided = world.plan();
   for (const PlanDecision& decision : decided.decisions)
     plan += std::string(name_of(decision.item)) + (decision.active ? ": on, " : ": off, ") +
             decision.reason + "\n";
@@ -49,10 +50,11 @@ void TextLog::add_plan(const Frame& frame) {
                  (decision.active ? " on: " : " off: ") + decision.reason);
 }
 
-void TextLog::add_events(const Frame& frame, const Events& events, const StepReport& report) {
+void TextLog::add_events(const Frame& frame) {
+  const Events events = frame.events();
   lines_in_step_ = 0;
-  if (!report.status.ok())
-    add_line(frame, "ERROR", std::string("step refused: ") + report.status.message);
+  if (!frame.report.status.ok())
+    add_line(frame, "ERROR", std::string("step refused: ") + frame.report.status.message);
   for (const QuarantineEvent& event : events.quarantined)
     add_line(frame, "ERROR", body_name(event.body) + ": not finite, put back and disabled");
   for (const HitEvent& event : events.hits)

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "plumb/world.h"
 #include "record/frame.h"
 #include "rrd/table.h"
 
@@ -13,8 +14,8 @@ class TextLog {
  public:
   explicit TextLog(int event_lines_per_step);
   // Only when it differs from the one before.
-  void add_plan(const Frame& frame);
-  void add_events(const Frame& frame, const Events& events, const StepReport& report);
+  void add_plan(const PhysicsWorld& world, const Frame& frame);
+  void add_events(const Frame& frame);
   void send(rrd::Writer& writer) { table_.send(writer); }
 
  private:

@@ -60,14 +60,14 @@ bool towers(const Box& box, const LocalPose& X_BC, const BodyState& body,
 
 }  // namespace
 
-SceneExtent extent_of(const Frame& frame) {
+SceneExtent extent_of(const PhysicsWorld& world, const Frame& frame) {
   Eigen::AlignedBox3d moving, all;
-  const Eigen::Vector3d up = up_axis(frame.world);
+  const Eigen::Vector3d up = up_axis(world);
   double radius_sum = 0, top = -std::numeric_limits<double>::infinity();
   std::size_t count = 0;
   for (const BodyState& body : frame.bodies) {
-    for (const ColliderId id : frame.world.colliders_of(body.id)) {
-      const Collider collider = frame.world.collider(id);
+    for (const ColliderId id : world.colliders_of(body.id)) {
+      const Collider collider = world.collider(id);
       const double radius = radius_of(collider.shape);
       if (radius == 0) continue;
       const Eigen::Vector3d center =
@@ -153,7 +153,8 @@ void Visuals::add_collider(rrd::Writer& writer, const Collider& collider, Placed
   }
 }
 
-void Visuals::rebuild(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent) {
+void Visuals::rebuild(rrd::Writer& writer, const PhysicsWorld& world, const Frame& frame,
+                      const SceneExtent& extent) {
   for (ShapeBatch& batch : shapes_) batch.clear_parts();
   for (MeshBatch& batch : meshes_) batch.clear_parts();
   for (std::size_t slot = 0; slot < frame.bodies.size(); ++slot) {
@@ -167,8 +168,8 @@ void Visuals::rebuild(rrd::Writer& writer, const Frame& frame, const SceneExtent
       mesh_batch(writer, shown->second.get(), *shown->second).add_part(part);
       continue;
     }
-    for (const ColliderId id : frame.world.colliders_of(body.id)) {
-      const Collider collider = frame.world.collider(id);
+    for (const ColliderId id : world.colliders_of(body.id)) {
+      const Collider collider = world.collider(id);
       const auto* box = std::get_if<Box>(&collider.shape);
       const bool hides = is_static && box && towers(*box, collider.pose, body, extent);
       const Role role = collider.is_sensor || hides ? Role::Outline

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plumb/replay/recorder.h"
+#include "plumb/world.h"
 #include "record/frame.h"
 #include "record/mesh_batch.h"
 #include "record/shape_batch.h"
@@ -21,7 +22,7 @@ struct SceneExtent {
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();     // unit, against gravity
   double top = 0;                                    // [m] highest point of what moves, along up
 };
-SceneExtent extent_of(const Frame& frame);
+SceneExtent extent_of(const PhysicsWorld& world, const Frame& frame);
 
 class Visuals {
  public:
@@ -29,7 +30,8 @@ class Visuals {
 
   void show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh);
   // Looks at the whole world again and sends what changed with the frame's pose.
-  void rebuild(rrd::Writer& writer, const Frame& frame, const SceneExtent& extent);
+  void rebuild(rrd::Writer& writer, const PhysicsWorld& world, const Frame& frame,
+               const SceneExtent& extent);
   void add(const Frame& frame);
   void send(rrd::Writer& writer);
 

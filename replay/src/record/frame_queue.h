@@ -1,0 +1,48 @@
+// Frames on their way from the thread that steps the world to the one that encodes them.
+//
+// Frames are reused, so that copying into one allocates nothing after a while. The encoder is woken
+// for several frames at once: waking it costs more than a frame. When it falls behind by too many,
+// the stepping thread waits for it: memory stays bounded and nothing is lost.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "record/frame.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace replay::detail {
+
+class FrameQueue {
+ public:
+  // `encode` is called on a thread of its own, once for each frame, in order.
+  explicit FrameQueue(std::function<void(const Frame&)> encode);
+  ~FrameQueue();  // after what is queued was encoded
+  FrameQueue(const FrameQueue&) = delete;
+  FrameQueue& operator=(const FrameQueue&) = delete;
+
+  // An empty frame with the storage of an older one.
+  std::unique_ptr<Frame> take_empty();
+  void push(std::unique_ptr<Frame> frame);
+  // Returns when all frames have been encoded.
+  void drain();
+
+ private:
+  void run();
+
+  std::function<void(const Frame&)> encode_;
+  std::mutex mutex_;
+  std::condition_variable work_, room_;
+  std::deque<std::unique_ptr<Frame>> waiting_;
+  std::vector<std::unique_ptr<Frame>> empty_;
+  bool hurry_ = false, encoding_ = false, ends_ = false;
+  std::thread thread_;  // last: it uses all the others
+};
+
+}  // namespace replay::detail
+}  // namespace plumb::inline PLUMB_ABI
