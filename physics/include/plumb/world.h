@@ -127,9 +127,13 @@ class PhysicsWorld {
 
   // --- replay ----------------------------------------------------------------------------------
   [[nodiscard]] Snapshot save() const;
+  void save(Snapshot& snapshot) const;       // into the storage of an older one
   Status restore(const Snapshot& snapshot);  // observers and job system stay
   // A 64-bit digest of everything that the next step depends on in bodies and contacts.
   [[nodiscard]] std::uint64_t state_hash() const;
+  // Of the bodies alone: cheap enough for every frame. Whatever differs in contacts reaches the
+  // bodies within the next step.
+  [[nodiscard]] std::uint64_t motion_hash() const;
   // Does what a recorded call did.
   Status apply_input(const InputRecord& input);
 

@@ -52,7 +52,8 @@ struct BodyForce {          // 32 / 64
 
 // --- by slot: read when something is built, asked for, or ends -----------------------------------
 
-struct BodyInfo {
+struct BodyInfo {  // what states are read by comes first
+  std::uint64_t user_data = 0;
   std::uint32_t generation = 0;
   bool alive = false;
   bool disabled = false;  // quarantined: its state became non-finite
@@ -61,17 +62,16 @@ struct BodyInfo {
   MotionLocks locks;
   bool can_sleep = true;
   std::uint32_t dense = 0;
+  Vec center_B{0, 0, 0};         // centre of mass in B
+  Rotation R_BP{0, 0, 0, 1};     // principal axes in B
   std::uint32_t island = kNone;  // sleeping island, or kNone
   Real rest_time = 0;            // [s] at rest without a break
   Real size = 0;                 // [m] smallest thickness over its colliders
   Real radius = 0;               // [m] farthest point of its colliders from the centre of mass
-  Vec center_B{0, 0, 0};         // centre of mass in B
-  Rotation R_BP{0, 0, 0, 1};     // principal axes in B
   Vec acceleration{0, 0, 0};     // [m/s^2] from forces and gravity in the last step
   MassProperties properties;     // in B
   std::vector<std::uint32_t> colliders;  // slots
   std::vector<ColliderId> collider_ids;
-  std::uint64_t user_data = 0;
 };
 
 class BodyStore {

@@ -117,12 +117,9 @@ void visit_contact(Table& t, Contact& c) {
   }
 }
 
-void add_list(Snapshot& out, const char* name, const std::vector<std::uint32_t>& values) {
-  SnapshotColumn column;
-  column.name = name;
-  column.type = SnapshotColumn::Type::Uint64;
-  column.integers.assign(values.begin(), values.end());
-  out.columns.push_back(std::move(column));
+void add_list(ColumnWriter& out, const char* table, const char* name,
+              const std::vector<std::uint32_t>& values) {
+  out.add(table, name, 1, false).integers.assign(values.begin(), values.end());
 }
 bool read_list(const Snapshot& in, const char* name, std::vector<std::uint32_t>& values,
                std::size_t limit) {
@@ -137,21 +134,19 @@ bool read_list(const Snapshot& in, const char* name, std::vector<std::uint32_t>&
 }
 
 // Hulls are stored once, whatever the number of colliders that share them.
-void save_hulls(Snapshot& out, const std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
-  SnapshotColumn sizes, numbers;
-  sizes.name = "hull.size";
-  sizes.type = SnapshotColumn::Type::Uint64;
-  numbers.name = "hull.numbers";
+void save_hulls(ColumnWriter& out, const std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
+  std::vector<std::uint64_t> sizes;
+  std::vector<double> numbers, written;
   for (const auto& hull : hulls) {
     Collider carrier;
     carrier.shape = ConvexHull{hull};
-    std::vector<double> written;
+    written.clear();
     append(written, carrier);
-    sizes.integers.push_back(written.size());
-    numbers.reals.insert(numbers.reals.end(), written.begin(), written.end());
+    sizes.push_back(written.size());
+    numbers.insert(numbers.end(), written.begin(), written.end());
   }
-  out.columns.push_back(std::move(sizes));
-  out.columns.push_back(std::move(numbers));
+  out.add("hull", "size", 1, false).integers = std::move(sizes);
+  out.add("hull", "numbers", 1, true).reals = std::move(numbers);
 }
 
 bool restore_hulls(const Snapshot& in, std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
@@ -316,33 +311,32 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
                    world.colliders.info.size());
 }
 
-void save_pairs(Snapshot& out, WorldState& world) {
-  std::size_t pairs = world.pairs.size(), contacts = world.contacts.size();
-  for (const SleepingIsland& island : world.islands) {
-    pairs += island.pairs.size();
-    contacts += island.contacts.size();
-  }
-  std::uint32_t index = kNone;
+void save_pairs(ColumnWriter& out, WorldState& world) {
+  std::size_t pairs = 0, contacts = 0;
+  const auto each_pair = [&](auto&& visit) {
+    for (std::size_t i = 0; i < world.pairs.size(); ++i)
+      visit(world.pairs[i], world.contacts, kNone);
+    for (std::uint32_t i = 0; i < world.islands.size(); ++i)
+      for (Pair& pair : world.islands[i].pairs) visit(pair, world.islands[i].contacts, i);
+  };
+  each_pair([&](const Pair& pair, const std::vector<Contact>&, std::uint32_t) {
+    ++pairs;
+    contacts += pair.contact_count;
+  });
   {
     TableWriter table(out, "pair", pairs);
-    const auto write = [&](Pair& pair) {
+    each_pair([&](Pair& pair, std::vector<Contact>&, std::uint32_t island) {
       table.next_row();
-      visit_pair(table, pair, index);
-    };
-    for (std::size_t i = 0; i < world.pairs.size(); ++i) write(world.pairs[i]);
-    for (index = 0; index < world.islands.size(); ++index)
-      for (Pair& pair : world.islands[index].pairs) write(pair);
+      visit_pair(table, pair, island);
+    });
   }
   TableWriter table(out, "contact", contacts);
-  const auto write = [&](const Pair& pair, std::vector<Contact>& store) {
+  each_pair([&](const Pair& pair, std::vector<Contact>& store, std::uint32_t) {
     for (Contact& contact : contacts_of(pair, store)) {
       table.next_row();
       visit_contact(table, contact);
     }
-  };
-  for (const Pair& pair : world.pairs) write(pair, world.contacts);
-  for (SleepingIsland& island : world.islands)
-    for (const Pair& pair : island.pairs) write(pair, island.contacts);
+  });
 }
 
 bool restore_pairs(const Snapshot& in, WorldState& world) {
@@ -420,10 +414,17 @@ void restore_lists(WorldState& world) {
 }  // namespace detail
 
 Snapshot PhysicsWorld::save() const {
+  Snapshot snapshot;
+  save(snapshot);
+  return snapshot;
+}
+
+void PhysicsWorld::save(Snapshot& snapshot) const {
   using namespace detail;
   WorldState& world = *state_;  // the visitors serve both directions; saving writes nothing
-  Snapshot out;
-  out.precision = kPrecisionName;
+  snapshot.schema_version = Snapshot::kSchemaVersion;
+  snapshot.precision = kPrecisionName;
+  ColumnWriter out(snapshot);
   {
     TableWriter table(out, "world", 1);
     table.next_row();
@@ -441,7 +442,7 @@ Snapshot PhysicsWorld::save() const {
                  world.bodies.mass[dense].gravity_scale, awake);
     }
   }
-  add_list(out, "body_free.slot", world.bodies.free_slots);
+  add_list(out, "body_free", "slot", world.bodies.free_slots);
   std::vector<std::shared_ptr<const HullGeometry>> hulls;
   {
     TableWriter table(out, "collider", world.colliders.info.size());
@@ -457,11 +458,10 @@ Snapshot PhysicsWorld::save() const {
   std::vector<std::uint32_t> order;
   for (const BodyInfo& info : world.bodies.info)
     order.insert(order.end(), info.colliders.begin(), info.colliders.end());
-  add_list(out, "collider_order.slot", order);
-  add_list(out, "collider_free.slot", world.colliders.free_slots);
-  add_list(out, "island_free.index", world.free_islands);
+  add_list(out, "collider_order", "slot", order);
+  add_list(out, "collider_free", "slot", world.colliders.free_slots);
+  add_list(out, "island_free", "index", world.free_islands);
   save_pairs(out, world);
-  return out;
 }
 
 Status PhysicsWorld::restore(const Snapshot& snapshot) {

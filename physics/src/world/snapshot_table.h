@@ -10,42 +10,70 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-// Appends rows to columns that it makes with the first row. `rows`: how many will come.
+// The columns of a snapshot in the order in which they are written.
+class ColumnWriter {
+ public:
+  explicit ColumnWriter(Snapshot& out) : out_(out) {}
+  // Those that are not written any more go.
+  ~ColumnWriter() { out_.columns.resize(count_); }
+  ColumnWriter(const ColumnWriter&) = delete;
+  ColumnWriter& operator=(const ColumnWriter&) = delete;
+
+  SnapshotColumn& add(const char* table, const char* name, std::size_t width, bool reals) {
+    if (count_ == out_.columns.size()) out_.columns.emplace_back();
+    SnapshotColumn& column = out_.columns[count_++];
+    column.name.assign(table).append(".").append(name);
+    column.width = static_cast<std::uint32_t>(width);
+    column.type = reals ? SnapshotColumn::Type::Float64 : SnapshotColumn::Type::Uint64;
+    column.reals.clear();
+    column.integers.clear();
+    return column;
+  }
+  SnapshotColumn& operator[](std::size_t i) { return out_.columns[i]; }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  Snapshot& out_;
+  std::size_t count_ = 0;
+};
+
+// Writes `rows` rows to columns, of which the first row tells the names. Columns left over from an
+// older snapshot give their storage.
 class TableWriter {
  public:
-  TableWriter(Snapshot& out, const char* table, std::size_t rows)
-      : out_(out), table_(table), rows_(rows), first_(out.columns.size()) {}
-  void next_row() { cursor_ = first_; }
+  TableWriter(ColumnWriter& out, const char* table, std::size_t rows)
+      : out_(out), table_(table), rows_(rows), first_(out.count()) {}
+  void next_row() {
+    row_ = started_ ? row_ + 1 : 0;
+    started_ = true;
+    cursor_ = first_;
+  }
   template <class... T>
   void operator()(const char* name, T&... values) {
     using First = std::tuple_element_t<0, std::tuple<T...>>;
-    constexpr bool kIsReal = std::is_floating_point_v<First>;
-    if (cursor_ == out_.columns.size()) {
-      SnapshotColumn column;
-      column.name = std::string(table_) + "." + name;
-      column.width = sizeof...(T);
-      column.type = kIsReal ? SnapshotColumn::Type::Float64 : SnapshotColumn::Type::Uint64;
-      if constexpr (kIsReal) {
-        column.reals.reserve(rows_ * sizeof...(T));
+    constexpr std::size_t kWidth = sizeof...(T);
+    if (row_ == 0) {
+      SnapshotColumn& column = out_.add(table_, name, kWidth, std::is_floating_point_v<First>);
+      if constexpr (std::is_floating_point_v<First>) {
+        column.reals.resize(rows_ * kWidth);
       } else {
-        column.integers.reserve(rows_ * sizeof...(T));
+        column.integers.resize(rows_ * kWidth);
       }
-      out_.columns.push_back(std::move(column));
     }
-    SnapshotColumn& column = out_.columns[cursor_++];
-    if constexpr (kIsReal) {
-      const double row[] = {static_cast<double>(values)...};
-      column.reals.insert(column.reals.end(), row, row + sizeof...(T));
+    SnapshotColumn& column = out_[cursor_++];
+    std::size_t at = row_ * kWidth;
+    if constexpr (std::is_floating_point_v<First>) {
+      ((column.reals[at++] = static_cast<double>(values)), ...);
     } else {
-      const std::uint64_t row[] = {static_cast<std::uint64_t>(values)...};
-      column.integers.insert(column.integers.end(), row, row + sizeof...(T));
+      ((column.integers[at++] = static_cast<std::uint64_t>(values)), ...);
     }
   }
 
  private:
-  Snapshot& out_;
+  ColumnWriter& out_;
   const char* table_;
-  std::size_t rows_, first_, cursor_ = 0;
+  std::size_t rows_, first_, cursor_ = 0, row_ = 0;
+  bool started_ = false;
 };
 
 // Reads rows of the same columns; every mismatch makes it fail, never read outside.

@@ -46,13 +46,7 @@ class Digest {
   std::uint64_t count_ = 0;
 };
 
-}  // namespace
-}  // namespace detail
-
-std::uint64_t PhysicsWorld::state_hash() const {
-  using namespace detail;
-  const WorldState& world = *state_;
-  Digest digest;
+void add_bodies(Digest& digest, const WorldState& world) {
   for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
     const BodyInfo& info = world.bodies.info[slot];
     if (!info.alive) continue;
@@ -65,6 +59,9 @@ std::uint64_t PhysicsWorld::state_hash() const {
                 L.x, L.y, L.z, info.rest_time});
     digest.add(std::uint64_t{world.bodies.is_awake(slot)} << 1 | std::uint64_t{info.disabled});
   }
+}
+
+void add_contacts(Digest& digest, const WorldState& world) {
   // Pairs without contacts follow from the poses and boxes.
   for (const Pair& pair : world.pairs) {
     for (const Contact& contact : contacts_of(pair, world.contacts)) {
@@ -77,6 +74,21 @@ std::uint64_t PhysicsWorld::state_hash() const {
       }
     }
   }
+}
+
+}  // namespace
+}  // namespace detail
+
+std::uint64_t PhysicsWorld::state_hash() const {
+  detail::Digest digest;
+  detail::add_bodies(digest, *state_);
+  detail::add_contacts(digest, *state_);
+  return digest.value();
+}
+
+std::uint64_t PhysicsWorld::motion_hash() const {
+  detail::Digest digest;
+  detail::add_bodies(digest, *state_);
   return digest.value();
 }
 

@@ -56,18 +56,20 @@ void append_contacts(const WorldState& world, const Pair& pair, const std::vecto
   }
 }
 
-void append_points(const WorldState& world, const Pair& pair, const std::vector<Contact>& store,
-                   std::vector<ContactPoint>& out) {
-  if (pair.contact_count == 0 || !pair.was_touching) return;
+ContactPoint* write_points(const WorldState& world, const Pair& pair,
+                           const std::vector<Contact>& store, ContactPoint* out) {
+  if (pair.contact_count == 0 || !pair.was_touching) return out;
   const std::uint32_t reference =
       world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
   const PosVec origin = world.bodies.pose[reference].x;
   for (const Contact& from : contacts_of(pair, store)) {
-    const Vec3 normal = to_public(from.manifold.normal);
-    for (int i = 0; i < from.manifold.count; ++i)
-      out.push_back({to_public_position(origin + cast<PosReal>(from.manifold.points[i].position)),
-                     normal, from.step_normal_impulse[i]});
+    for (int i = 0; i < from.manifold.count; ++i, ++out) {
+      out->position = to_public_position(origin + cast<PosReal>(from.manifold.points[i].position));
+      out->normal = to_public(from.manifold.normal);
+      out->normal_impulse = from.step_normal_impulse[i];
+    }
   }
+  return out;
 }
 
 }  // namespace
@@ -166,9 +168,10 @@ Events PhysicsWorld::events() const {
 }
 
 void PhysicsWorld::copy_body_states(std::vector<BodyState>& out) const {
-  out.clear();
+  out.resize(state_->bodies.alive_count);
+  BodyState* next = out.data();
   for (std::uint32_t slot = 0; slot < state_->bodies.info.size(); ++slot)
-    if (state_->bodies.info[slot].alive) out.push_back(detail::state_of(*state_, slot));
+    if (state_->bodies.info[slot].alive) *next++ = detail::state_of(*state_, slot);
 }
 void PhysicsWorld::copy_moved_body_states(std::vector<BodyState>& out) const {
   out.clear();
@@ -184,12 +187,16 @@ void PhysicsWorld::copy_contacts(std::vector<ContactState>& out) const {
 }
 
 void PhysicsWorld::copy_contact_points(std::vector<ContactPoint>& out) const {
-  out.clear();
+  std::size_t contacts = state_->contacts.size();
+  for (const detail::SleepingIsland& island : state_->islands) contacts += island.contacts.size();
+  out.resize(contacts * detail::Manifold::kMaxPoints);
+  ContactPoint* end = out.data();
   for (const detail::Pair& pair : state_->pairs)
-    detail::append_points(*state_, pair, state_->contacts, out);
+    end = detail::write_points(*state_, pair, state_->contacts, end);
   for (const detail::SleepingIsland& island : state_->islands)
     for (const detail::Pair& pair : island.pairs)
-      detail::append_points(*state_, pair, island.contacts, out);
+      end = detail::write_points(*state_, pair, island.contacts, end);
+  out.resize(static_cast<std::size_t>(end - out.data()));
 }
 
 EnergyReport PhysicsWorld::energy() const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "plumb/events.h"
@@ -28,9 +27,10 @@ struct Frame {
   StepReport report;
   EnergyReport energy;
   std::uint64_t state_hash = 0;
-  bool profiled = false;             // the report has the stages' times
-  bool moved = false;                // false: the step was refused, or of no length
-  std::optional<Snapshot> snapshot;  // after the step
+  bool profiled = false;      // the report has the stages' times
+  bool moved = false;         // false: the step was refused, or of no length
+  bool has_snapshot = false;  // else what is in it is an older one
+  Snapshot snapshot;          // after the step
 
   [[nodiscard]] Events events() const { return {touches, hits, sensors, sleep, refused}; }
 };

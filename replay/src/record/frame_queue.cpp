@@ -1,5 +1,6 @@
 #include "record/frame_queue.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace plumb::inline PLUMB_ABI {
@@ -24,9 +25,14 @@ FrameQueue::~FrameQueue() {
   thread_.join();
 }
 
-std::unique_ptr<Frame> FrameQueue::take_empty() {
+std::unique_ptr<Frame> FrameQueue::take_empty(bool for_snapshot) {
   const std::lock_guard lock(mutex_);
   if (empty_.empty()) return std::make_unique<Frame>();
+  const auto fits = [&](const auto& frame) {
+    return frame->snapshot.columns.empty() != for_snapshot;
+  };
+  const auto found = std::find_if(empty_.rbegin(), empty_.rend(), fits);
+  if (found != empty_.rend()) std::swap(*found, empty_.back());
   std::unique_ptr<Frame> frame = std::move(empty_.back());
   empty_.pop_back();
   return frame;

@@ -26,8 +26,9 @@ class FrameQueue {
   FrameQueue(const FrameQueue&) = delete;
   FrameQueue& operator=(const FrameQueue&) = delete;
 
-  // An empty frame with the storage of an older one.
-  std::unique_ptr<Frame> take_empty();
+  // A frame to be filled, with the storage of an older one; one that has held a snapshot if such a
+  // one is there and asked for.
+  std::unique_ptr<Frame> take_empty(bool for_snapshot);
   void push(std::unique_ptr<Frame> frame);
   // Returns when all frames have been encoded.
   void drain();

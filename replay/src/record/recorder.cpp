@@ -179,16 +179,17 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   frame.sensors.assign(events.sensors.begin(), events.sensors.end());
   frame.sleep.assign(events.sleep.begin(), events.sleep.end());
   frame.refused.assign(events.quarantined.begin(), events.quarantined.end());
-  frame.snapshot.reset();
+  frame.has_snapshot = false;
   if (!frame.moved) return;
   world.copy_body_states(frame.bodies);
   if (options_.contacts) world.copy_contact_points(frame.contacts);
   if (options_.plots) frame.energy = world.energy();
   frame.profiled = world.settings().profiling;
-  frame.state_hash = world.state_hash();
-  if (++steps_since_snapshot_ < options_.snapshot_every) return;
+  frame.state_hash = world.motion_hash();
+  frame.has_snapshot = ++steps_since_snapshot_ >= options_.snapshot_every;
+  if (!frame.has_snapshot) return;
   steps_since_snapshot_ = 0;
-  frame.snapshot = world.save();
+  world.save(frame.snapshot);
 }
 
 void Recorder::Run::step(const StepView& view) {
@@ -200,7 +201,8 @@ void Recorder::Run::step(const StepView& view) {
         "step " + std::to_string(step) + " follows step " + std::to_string(last_step_) +
         ": the world was restored while it was recorded; use a new recorder for what follows");
   }
-  std::unique_ptr<detail::Frame> frame = queue_.take_empty();
+  std::unique_ptr<detail::Frame> frame =
+      queue_.take_empty(steps_since_snapshot_ + 1 >= options_.snapshot_every);
   copy(view, *frame);
   last_step_ = step;
   if (frame->moved) {
@@ -234,9 +236,9 @@ void Recorder::Run::encode(const detail::Frame& frame, const PhysicsWorld* world
     if (options_.body_states) bodies_.add(frame);
     replay_.add_step(frame.report, frame.state_hash);
     if (++rows_ >= options_.rows_per_chunk) send();
-    if (frame.snapshot) {
+    if (frame.has_snapshot) {
       send();  // a snapshot never stands before the steps that lead to it
-      replay_.send_snapshot(writer_, *frame.snapshot, frame.number, frame.time);
+      replay_.send_snapshot(writer_, frame.snapshot, frame.number, frame.time);
     }
     if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
   } catch (const std::exception& error) {

@@ -25,7 +25,7 @@ ResumeResult resume(const std::string& path, std::uint64_t frame) {
     if (step.frame <= recording.snapshot_frame) continue;
     if (!result.outcome.ok() || step.frame > frame) break;
     result.outcome = detail::step_again(recording, step, world);
-    if (result.outcome.ok() && world.state_hash() != step.state_hash)
+    if (result.outcome.ok() && world.motion_hash() != step.state_hash)
       result.outcome = Outcome::failed("the replay leaves the recording at frame " +
                                        std::to_string(step.frame) + "; run verify for the details");
     if (!result.outcome.ok()) result.outcome.error = path + ": " + result.outcome.error;

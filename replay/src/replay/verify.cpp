@@ -45,7 +45,7 @@ VerifyResult verify(const std::string& path, const VerifyOptions& options) {
       return result;
     }
     ++result.steps;
-    const std::uint64_t hash = world.state_hash();
+    const std::uint64_t hash = world.motion_hash();
     if (hash == step.state_hash) continue;
     Difference difference;
     difference.frame = step.frame;
