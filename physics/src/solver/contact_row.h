@@ -57,7 +57,7 @@ template <class T>
 struct ContactRow {
   static constexpr int kMaxPoints = 4;
   std::uint32_t body_a = 0, body_b = 0;  // dense; 0: nothing that moves
-  std::uint32_t pair = 0;                // index into the awake pairs
+  std::uint32_t contact = 0;             // index into the world's contacts
   int count = 0;
 
   Vector3<T> n, t1, t2;       // n from A to B

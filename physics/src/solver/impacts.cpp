@@ -208,7 +208,7 @@ void deflect(Impacts& impacts, std::uint32_t body, const Side& after, Vec dv, Re
 
 void note_bounce(WorldState& world, const ContactRow<Real>& row, Vec normal, PosVec point,
                  Real approach, Real impulse) {
-  const Pair& pair = world.pairs[row.pair];
+  const Pair& pair = world.pairs[world.contacts[row.contact].pair];
   HitEvent hit;
   hit.a = world.colliders.id(pair.collider_a());
   hit.b = world.colliders.id(pair.collider_b());

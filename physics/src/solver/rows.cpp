@@ -58,10 +58,10 @@ void add_response(ContactRow<Real>& row, Vec arm, Vec inverse_mass,
   row.K_friction.zz += bilinear(I, row.n, row.n);
 }
 
-void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, Real warm) {
+void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real warm) {
   for (int i = 0; i < row.count; ++i) {
     auto& point = row.points[i];
-    const ManifoldPoint& from = pair.manifold.points[i];
+    const ManifoldPoint& from = contact.manifold.points[i];
     const Vec offset = from.position - center;
     point = {};
     point.a = dot(row.t1, offset);
@@ -76,11 +76,11 @@ void make_points(ContactRow<Real>& row, const Pair& pair, Vec center, Real warm)
     point.k11 = F.xx - Real(2) * b * F.xz + b * b * F.zz;
     point.k12 = F.xy + a * F.xz - b * F.yz - a * b * F.zz;
     point.k22 = F.yy + Real(2) * a * F.yz + a * a * F.zz;
-    point.impulse = warm * pair.normal_impulse[i];
+    point.impulse = warm * contact.normal_impulse[i];
     // Friction also stops swaying, and those impulses must not grow with the step: that would pump.
     const Real warm_friction = std::min(warm, Real(1));
-    point.friction1 = warm_friction * dot(row.t1, pair.friction_impulse[i]);
-    point.friction2 = warm_friction * dot(row.t2, pair.friction_impulse[i]);
+    point.friction1 = warm_friction * dot(row.t1, contact.friction_impulse[i]);
+    point.friction2 = warm_friction * dot(row.t2, contact.friction_impulse[i]);
   }
 }
 
@@ -147,33 +147,35 @@ void make_block(ContactRow<Real>& row) {
   row.has_block = true;
 }
 
-void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t pair_index) {
+void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t contact_index) {
   const WorldState& world = context.world;
   const BodyStore& bodies = world.bodies;
-  const Pair& pair = world.pairs[pair_index];
+  const Contact& contact = world.contacts[contact_index];
+  const Pair& pair = world.pairs[contact.pair];
   const BodyInfo& info_a = bodies.info[pair.body_a];
   const BodyInfo& info_b = bodies.info[pair.body_b];
   row = {};
-  row.pair = pair_index;
+  row.contact = contact_index;
   row.body_a = info_a.dense;
   row.body_b = info_b.dense;
-  row.count = pair.manifold.count;
-  row.n = pair.manifold.normal;
+  row.count = contact.manifold.count;
+  row.n = contact.manifold.normal;
   tangent_frame(row.n, row.t1, row.t2);
 
   Vec center{0, 0, 0};
-  for (int i = 0; i < row.count; ++i) center += pair.manifold.points[i].position;
+  for (int i = 0; i < row.count; ++i) center += contact.manifold.points[i].position;
   center = (Real(1) / static_cast<Real>(row.count)) * center;
   const Vec from_a_to_b = cast<Real>(bodies.pose[row.body_b].x - bodies.pose[row.body_a].x);
   row.between = from_a_to_b;
-  row.advance = pair.advance;
-  row.arm_a = pair.relative_to_b ? center + (from_a_to_b + pair.advance) : center;
-  row.arm_b = pair.relative_to_b ? center : center - (from_a_to_b + pair.advance);
+  row.advance = contact.advance;
+  row.arm_a = pair.relative_to_b ? center + (from_a_to_b + contact.advance) : center;
+  row.arm_b = pair.relative_to_b ? center : center - (from_a_to_b + contact.advance);
   const bool a_moves = bodies.mass[row.body_a].mass > Real(0);
   const bool b_moves = bodies.mass[row.body_b].mass > Real(0);
   row.both_dynamic = a_moves && b_moves;
   Real gap = 0;  // between the surfaces, when the manifold was made
-  for (int i = 0; i < row.count; ++i) gap += pair.manifold.points[i].separation - pair.advanced_gap;
+  for (int i = 0; i < row.count; ++i)
+    gap += contact.manifold.points[i].separation - contact.advanced_gap;
   const Vec half_gap = (Real(0.5) * gap / static_cast<Real>(row.count)) * row.n;
   row.surface_a = world.colliders.info[pair.collider_a()].shape.radius;
   row.surface_b = world.colliders.info[pair.collider_b()].shape.radius;
@@ -198,7 +200,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
   // The remembered impulses belong to a substep of the last length; forces are what persists.
   const Real warm =
       world.settings.warm_starting && world.last_h > Real(0) ? world.h / world.last_h : Real(0);
-  make_points(row, pair, center, warm);
+  make_points(row, contact, center, warm);
   make_block(row);
 
   row.friction = pair.friction;
@@ -210,7 +212,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t p
   row.impulse_scale = softness.impulse_scale;
   row.push_speed = tolerance::kPushRate * thickness;
   row.push_speed_now = row.push_speed;
-  row.at_rest = pair.at_rest;
+  row.at_rest = contact.at_rest;
 
   // As the step begins: how fast do the surfaces approach, and what does a substep add to that?
   const BodyVelocity& va = bodies.velocity[row.body_a];
@@ -270,8 +272,8 @@ void build_rows(WorldState& world) {
                    }
                  }
                });
-  for (const std::uint32_t i : world.touching) {
-    const Pair& pair = world.pairs[i];
+  for (const Contact& contact : world.contacts) {
+    const Pair& pair = world.pairs[contact.pair];
     const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
     if (bodies.mass[a].mass > Real(0)) world.substep[a].constrained = true;
     if (bodies.mass[b].mass > Real(0)) world.substep[b].constrained = true;

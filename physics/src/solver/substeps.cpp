@@ -187,14 +187,15 @@ void store_impulses(WorldState& world) {
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t k = begin; k < end; ++k) {
                    const ContactRow<Real>& row = world.rows[k];
-                   Pair& pair = world.pairs[row.pair];
-                   pair.at_rest = row.at_rest;
+                   Contact& contact = world.contacts[row.contact];
+                   contact.at_rest = row.at_rest;
                    for (int i = 0; i < row.count; ++i) {
                      const auto& point = row.points[i];
-                     pair.normal_impulse[i] = point.impulse;
-                     pair.friction_impulse[i] = point.friction1 * row.t1 + point.friction2 * row.t2;
-                     pair.step_normal_impulse[i] += point.impulse_sum;
-                     pair.step_friction_impulse[i] +=
+                     contact.normal_impulse[i] = point.impulse;
+                     contact.friction_impulse[i] =
+                         point.friction1 * row.t1 + point.friction2 * row.t2;
+                     contact.step_normal_impulse[i] += point.impulse_sum;
+                     contact.step_friction_impulse[i] +=
                          point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
                    }
                  }

@@ -29,22 +29,44 @@ WorldAabb grown(const WorldAabb& box, PosReal by) {
   const PosVec m{by, by, by};
   return {box.lower - m, box.upper + m};
 }
-
-// Bounds that hold the collider throughout the next step, whatever its contacts do to it but stop
-// it.
-WorldAabb bounds_for_next_step(const WorldState& world, const ColliderInfo& collider) {
-  const BodyStore& bodies = world.bodies;
-  const std::uint32_t dense = bodies.info[collider.body].dense;
-  const BodyPose& pose = bodies.pose[dense];
-  const Transform placed{rotate(pose.q, collider.in_body.p), pose.q * collider.in_body.q};
-  const Aabb tight = bounds_of(collider.shape, placed);
-  return {pose.x + cast<PosReal>(tight.lower), pose.x + cast<PosReal>(tight.upper)};
+WorldAabb swept(const WorldAabb& box, PosVec path) {
+  const PosVec zero{0, 0, 0};
+  return {box.lower + min_each(path, zero), box.upper + max_each(path, zero)};
 }
 
-Real reach_per_second(const WorldState& world, const ColliderInfo& collider) {
-  const BodyInfo& info = world.bodies.info[collider.body];
-  const BodyVelocity& velocity = world.bodies.velocity[info.dense];
-  return length(velocity.v) + length(velocity.w) * info.radius;
+struct Reach {
+  WorldAabb box;  // all places of the collider in the next step, unless something hits the body
+  PosVec path;    // [m] of its centre of mass in it
+};
+
+Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) {
+  const BodyStore& bodies = world.bodies;
+  const BodyInfo& body = bodies.info[collider.body];
+  const BodyPose& pose = bodies.pose[body.dense];
+  const Transform placed{rotate(pose.q, collider.in_body.p), pose.q * collider.in_body.q};
+  const Aabb tight = bounds_of(collider.shape, placed);
+  const Real slops =
+      tolerance::kMarginSlops * tolerance::kSlopFraction * std::min(collider.thickness, kUnbounded);
+  Aabb box = tight;
+  Vec path{0, 0, 0};
+  Real around = slops;
+  if (!collider.is_static) {
+    const BodyVelocity& velocity = bodies.velocity[body.dense];
+    // Turning moves a point by at most |w| times its distance from the centre of mass, and never
+    // out of the ball around it.
+    const Real far = length(collider.in_body.p) + bounding_radius(collider.shape);
+    const Real turn = std::min(world.dt * length(velocity.w) * far, Real(2) * far);
+    const Vec t{turn, turn, turn}, ball{far, far, far};
+    box = {max_each(tight.lower - t, min_each(-ball, tight.lower)),
+           min_each(tight.upper + t, max_each(ball, tight.upper))};
+    const Real pulled =
+        length(multiply_each(bodies.mass[body.dense].inverse_mass, bodies.force[body.dense].force));
+    around += world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
+    path = world.dt * velocity.v;
+  }
+  const WorldAabb here{pose.x + cast<PosReal>(box.lower), pose.x + cast<PosReal>(box.upper)};
+  const PosVec way = cast<PosReal>(path);
+  return {grown(swept(here, way), static_cast<PosReal>(around)), way};
 }
 
 }  // namespace
@@ -78,25 +100,25 @@ Pair make_pair(const WorldState& world, std::uint64_t key) {
   return pair;
 }
 
+PosVec update_reach(WorldState& world, std::uint32_t slot) {
+  const Reach reach = reach_in_next_step(world, world.colliders.info[slot]);
+  if (world.reach.size() <= slot) world.reach.resize(slot + 1);
+  world.reach[slot] = reach.box;
+  return reach.path;
+}
+
 void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
   ColliderInfo& collider = world.colliders.info[slot];
   AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
-  const WorldAabb tight = bounds_for_next_step(world, collider);
-  const Real thickness = std::min(collider.thickness, kUnbounded);
-  const Real speed = collider.is_static ? Real(0) : reach_per_second(world, collider);
-  const std::uint32_t dense = world.bodies.info[collider.body].dense;
-  const Real pulled =
-      length(multiply_each(world.bodies.mass[dense].inverse_mass, world.bodies.force[dense].force));
-  const Real fall =
-      collider.is_static
-          ? Real(0)
-          : world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
-  const Real slops = tolerance::kMarginSlops * tolerance::kSlopFraction * thickness;
-  const WorldAabb needed = grown(tight, static_cast<PosReal>(slops + world.dt * speed + fall));
-  if (!force && contains(tree.box(collider.proxy), needed)) return;
-  const Real ahead =
-      tolerance::kFatBoxFraction * thickness + tolerance::kFatBoxSteps * (world.dt * speed + fall);
-  const WorldAabb fat = collider.is_static ? needed : grown(needed, static_cast<PosReal>(ahead));
+  const PosVec path = update_reach(world, slot);
+  const WorldAabb& reach = world.reach[slot];
+  if (!force && contains(tree.box(collider.proxy), reach)) return;
+  WorldAabb fat = reach;
+  if (!collider.is_static) {
+    const Real spare = tolerance::kFatBoxFraction * std::min(collider.thickness, kUnbounded);
+    fat = grown(swept(fat, static_cast<PosReal>(tolerance::kFatBoxSteps) * path),
+                static_cast<PosReal>(spare));
+  }
   if (collider.proxy == AabbTree::kNull) {
     collider.proxy = tree.insert(fat, slot);
   } else {

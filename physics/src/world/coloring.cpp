@@ -25,9 +25,9 @@ void color_contacts(WorldState& world) {
                                                                          : nullptr;
   };
   std::vector<std::uint32_t> counts(kColors + 1, 0);
-  std::vector<std::uint8_t> color_of(world.touching.size());
-  for (std::size_t i = 0; i < world.touching.size(); ++i) {
-    const Pair& pair = world.pairs[world.touching[i]];
+  std::vector<std::uint8_t> color_of(world.contacts.size());
+  for (std::size_t i = 0; i < world.contacts.size(); ++i) {
+    const Pair& pair = world.pairs[world.contacts[i].pair];
     std::uint64_t* a = mask_of(pair.body_a);
     std::uint64_t* b = mask_of(pair.body_b);
     const std::uint64_t used = (a != nullptr ? *a : 0) | (b != nullptr ? *b : 0);
@@ -51,9 +51,9 @@ void color_contacts(WorldState& world) {
       for (std::uint32_t i = 0; i < size; ++i) world.colors.push_back({begin + i, begin + i + 1});
     }
   }
-  world.row_order.resize(world.touching.size());
-  for (std::size_t i = 0; i < world.touching.size(); ++i)
-    world.row_order[counts[color_of[i]]++] = world.touching[i];
+  world.row_order.resize(world.contacts.size());
+  for (std::uint32_t i = 0; i < world.contacts.size(); ++i)
+    world.row_order[counts[color_of[i]]++] = i;
   world.report.colors = static_cast<std::uint32_t>(world.colors.size());
 }
 

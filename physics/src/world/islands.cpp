@@ -35,8 +35,8 @@ void link_touching(WorldState& world) {
   world.parents.resize(world.bodies.info.size());
   for (std::uint32_t dense = world.bodies.awake_begin; dense < world.bodies.awake_end; ++dense)
     world.parents[world.bodies.slot_of[dense]] = world.bodies.slot_of[dense];
-  for (const std::uint32_t i : world.touching) {
-    const Pair& pair = world.pairs[i];
+  for (const Pair& pair : world.pairs) {
+    if (pair.contact_count == 0) continue;
     if (is_dynamic(world, pair.body_a) && is_dynamic(world, pair.body_b) &&
         world.bodies.is_awake(pair.body_a) && world.bodies.is_awake(pair.body_b))
       link(world.parents, pair.body_a, pair.body_b);
@@ -95,13 +95,16 @@ void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
 // Takes the touching pairs of all bodies that just fell asleep out of the awake ones. A pair that
 // only has overlapping bounds is forgotten; waking seeks it again.
 void move_pairs_to_islands(WorldState& world) {
-  world.pairs.remove_if([&](const Pair& pair) {
+  world.pairs.remove_if([&](Pair& pair) {
     const std::uint32_t in_a = world.bodies.info[pair.body_a].island;
     const std::uint32_t in_b = world.bodies.info[pair.body_b].island;
     if (in_a == kNone && in_b == kNone) return false;
     if (world.bodies.is_awake(pair.body_a) || world.bodies.is_awake(pair.body_b)) return false;
-    if (pair.was_touching || pair.touching)
-      world.islands[in_a != kNone ? in_a : in_b].pairs.push_back(pair);
+    if (pair.was_touching || pair.touching) {
+      SleepingIsland& island = world.islands[in_a != kNone ? in_a : in_b];
+      move_contacts(pair, world.contacts, island.contacts);
+      island.pairs.push_back(pair);
+    }
     return true;
   });
 }
@@ -136,6 +139,7 @@ void wake_body(WorldState& world, std::uint32_t body) {
     }
   }
   std::erase_if(island.pairs, [&](const Pair& pair) { return world.pairs.contains(pair.key); });
+  for (Pair& pair : island.pairs) move_contacts(pair, island.contacts, world.contacts);
   world.pairs.insert_sorted(island.pairs);
 }
 
@@ -192,9 +196,6 @@ void sleep_islands(WorldState& world) {
 
 void put_to_sleep(WorldState& world, std::uint32_t body) {
   if (!is_dynamic(world, body) || !world.bodies.is_awake(body)) return;
-  world.touching.clear();
-  for (std::uint32_t i = 0; i < world.pairs.size(); ++i)
-    if (world.pairs[i].touching && !world.pairs[i].sensor) world.touching.push_back(i);
   link_touching(world);
   std::vector<std::uint32_t> members;
   const std::uint32_t root = find_root(world.parents, body);

@@ -25,35 +25,33 @@ Transform placed_from(const WorldState& world, const ColliderInfo& collider, Pos
   return {cast<Real>(dot(n, p) * n), q};
 }
 
-void carry_impulses(Pair& pair, const Manifold& old, Real thickness) {
-  Real normal[Manifold::kMaxPoints]{};
-  Vec friction[Manifold::kMaxPoints]{};
+// A contact takes over the impulses of the same part's points in the last step: by feature, else
+// by place.
+void carry_impulses(Contact& contact, const Contact& old, Real thickness) {
+  const Manifold& now = contact.manifold;
+  const Manifold& before = old.manifold;
   bool taken[Manifold::kMaxPoints]{}, matched[Manifold::kMaxPoints]{};
   const auto take = [&](int i, int j) {
-    normal[i] = pair.normal_impulse[j];
-    friction[i] = pair.friction_impulse[j];
+    contact.normal_impulse[i] = old.normal_impulse[j];
+    contact.friction_impulse[i] = old.friction_impulse[j];
     taken[j] = matched[i] = true;
   };
-  for (int i = 0; i < pair.manifold.count; ++i)
-    for (int j = 0; j < old.count && !matched[i]; ++j)
-      if (!taken[j] && old.points[j].feature == pair.manifold.points[i].feature) take(i, j);
+  for (int i = 0; i < now.count; ++i)
+    for (int j = 0; j < before.count && !matched[i]; ++j)
+      if (!taken[j] && before.points[j].feature == now.points[i].feature) take(i, j);
   const Real reach = kMatchFraction * thickness;
-  for (int i = 0; i < pair.manifold.count; ++i) {
+  for (int i = 0; i < now.count; ++i) {
     if (matched[i]) continue;
     int nearest = -1;
     Real best = reach * reach;
-    for (int j = 0; j < old.count; ++j) {
-      const Real d = length_squared(old.points[j].position - pair.manifold.points[i].position);
+    for (int j = 0; j < before.count; ++j) {
+      const Real d = length_squared(before.points[j].position - now.points[i].position);
       if (!taken[j] && d < best) {
         best = d;
         nearest = j;
       }
     }
     if (nearest >= 0) take(i, nearest);
-  }
-  for (int i = 0; i < Manifold::kMaxPoints; ++i) {
-    pair.normal_impulse[i] = normal[i];
-    pair.friction_impulse[i] = friction[i];
   }
 }
 
@@ -71,8 +69,9 @@ Real reach_of(const WorldState& world, const Pair& pair) {
 // Fast pairs: conservative advancement along the relative path of the step (without rotation) to
 // the first touch [Mirtich 1996], and the manifold there. Returns false when the pair is slow, or
 // when nothing meets; the ordinary manifold serves then.
-bool collide_swept(const WorldState& world, Pair& pair, const ColliderInfo& a, const Transform& xa,
-                   const ColliderInfo& b, const Transform& xb, Real margin) {
+bool collide_swept(const WorldState& world, const Pair& pair, const ColliderInfo& a,
+                   const Transform& xa, const ColliderInfo& b, const Transform& xb, Real margin,
+                   Contact& contact) {
   const BodyInfo& info_a = world.bodies.info[pair.body_a];
   const BodyInfo& info_b = world.bodies.info[pair.body_b];
   const Vec v = world.bodies.velocity[info_b.dense].v - world.bodies.velocity[info_a.dense].v;
@@ -97,55 +96,70 @@ bool collide_swept(const WorldState& world, Pair& pair, const ColliderInfo& a, c
     moved.p = xb.p + t * path;
   }
   if (!meets || !(dot(normal, path) < Real(0))) return false;
-  Manifold manifold;
-  if (!collide(a.shape, xa, b.shape, moved, margin, manifold)) return false;
-  pair.manifold = manifold;
-  pair.advance = t * path;
-  pair.advanced_gap = -dot(manifold.normal, pair.advance);
-  for (int i = 0; i < manifold.count; ++i) {
-    ManifoldPoint& point = pair.manifold.points[i];
-    point.separation += pair.advanced_gap;
-    if (pair.relative_to_b) point.position -= pair.advance;
+  if (!collide(a.shape, xa, b.shape, moved, margin, contact.manifold)) return false;
+  contact.advance = t * path;
+  contact.advanced_gap = -dot(contact.manifold.normal, contact.advance);
+  for (int i = 0; i < contact.manifold.count; ++i) {
+    ManifoldPoint& point = contact.manifold.points[i];
+    point.separation += contact.advanced_gap;
+    if (pair.relative_to_b) point.position -= contact.advance;
   }
   return true;
 }
 
-void collide_pair(WorldState& world, std::size_t index) {
-  Pair& pair = world.pairs[index];
-  const ColliderInfo& a = world.colliders.info[pair.collider_a()];
-  const ColliderInfo& b = world.colliders.info[pair.collider_b()];
+// Appends the contacts of one pair to `out`. Reads the world, writes only there and to the pair's
+// findings, so that all pairs can be worked on at once.
+void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& out) {
+  const Pair& pair = world.pairs[index];
+  PairFindings& found = world.findings[index];
+  found = {static_cast<std::uint32_t>(out.size()), 0, false, false};
   const BodyStore& bodies = world.bodies;
-  const WorldAabb& box_a = (a.is_static ? world.static_tree : world.moving_tree).box(a.proxy);
-  const WorldAabb& box_b = (b.is_static ? world.static_tree : world.moving_tree).box(b.proxy);
+  const std::uint32_t slot_a = pair.collider_a(), slot_b = pair.collider_b();
   const bool some_awake = bodies.is_awake(pair.body_a) || bodies.is_awake(pair.body_b);
-  world.pair_gone[index] = !some_awake || !overlaps(box_a, box_b);
-  if (world.pair_gone[index] != 0) {
-    pair.manifold.count = 0;
+  const bool meet = some_awake && overlaps(world.reach[slot_a], world.reach[slot_b]);
+  const ColliderInfo& a = world.colliders.info[slot_a];
+  const ColliderInfo& b = world.colliders.info[slot_b];
+  if (!meet) {
+    const WorldAabb& box_a = (a.is_static ? world.static_tree : world.moving_tree).box(a.proxy);
+    const WorldAabb& box_b = (b.is_static ? world.static_tree : world.moving_tree).box(b.proxy);
+    found.gone = !some_awake || !overlaps(box_a, box_b);
     return;
   }
   const PosVec reference =
       bodies.pose[bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense].x;
   const Transform xa = placed_from(world, a, reference), xb = placed_from(world, b, reference);
-  const Real margin =
-      pair.sensor ? Real(0) : tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
-  const Manifold old = pair.manifold;
-  pair.manifold.count = 0;
-  pair.advance = {0, 0, 0};
-  pair.advanced_gap = 0;
-  if (pair.sensor || !collide_swept(world, pair, a, xa, b, xb, margin))
-    collide(a.shape, xa, b.shape, xb, margin, pair.manifold);
-  if (!pair.sensor) carry_impulses(pair, old, pair.slop / tolerance::kSlopFraction);
-  for (int i = 0; i < Manifold::kMaxPoints; ++i) {
-    pair.step_normal_impulse[i] = 0;
-    pair.step_friction_impulse[i] = {0, 0, 0};
+  if (pair.sensor) {
+    Manifold manifold;
+    found.overlaps = collide(a.shape, xa, b.shape, xb, Real(0), manifold);
+    return;
+  }
+  const Real margin = tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
+  Contact& contact = out.emplace_back();
+  contact.pair = static_cast<std::uint32_t>(index);
+  if (!collide_swept(world, pair, a, xa, b, xb, margin, contact))
+    collide(a.shape, xa, b.shape, xb, margin, contact.manifold);
+  if (contact.manifold.count == 0) {
+    out.pop_back();
+    return;
+  }
+  found.count = 1;
+  for (const Contact& old : contacts_of(pair, world.contacts)) {
+    if (old.part != contact.part) continue;
+    carry_impulses(contact, old, pair.slop / tolerance::kSlopFraction);
+    contact.at_rest = old.at_rest;
   }
 }
 
-void collide_range(WorldState& world, const std::vector<std::uint32_t>& which) {
-  parallel_for(world, static_cast<std::uint32_t>(which.size()), tolerance::kPairGrain,
-               [&](std::uint32_t begin, std::uint32_t end) {
-                 for (std::uint32_t i = begin; i < end; ++i) collide_pair(world, which[i]);
-               });
+void collide_all(WorldState& world) {
+  const std::uint32_t count = static_cast<std::uint32_t>(world.pairs.size());
+  const std::uint32_t chunks = (count + tolerance::kPairGrain - 1) / tolerance::kPairGrain;
+  world.findings.resize(count);
+  if (world.contacts_by_chunk.size() < chunks) world.contacts_by_chunk.resize(chunks);
+  parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    std::vector<Contact>& out = world.contacts_by_chunk[begin / tolerance::kPairGrain];
+    out.clear();
+    for (std::uint32_t i = begin; i < end; ++i) collide_pair(world, i, out);
+  });
 }
 
 // Sleeping dynamic bodies that something awake has reached.
@@ -153,7 +167,7 @@ bool wake_what_is_touched(WorldState& world) {
   world.bodies_to_wake.clear();
   for (std::size_t i = 0; i < world.pairs.size(); ++i) {
     const Pair& pair = world.pairs[i];
-    if (pair.manifold.count == 0 || pair.sensor) continue;
+    if (world.findings[i].count == 0) continue;
     for (const std::uint32_t body : {pair.body_a, pair.body_b})
       if (world.bodies.info[body].island != kNone) world.bodies_to_wake.push_back(body);
   }
@@ -161,63 +175,57 @@ bool wake_what_is_touched(WorldState& world) {
   return !world.bodies_to_wake.empty();
 }
 
+// Replaces the last step's contacts by those found now, and drops pairs whose bounds have parted.
+void take_findings(WorldState& world) {
+  world.new_contacts.clear();
+  std::size_t index = 0;
+  std::uint32_t kept = 0;
+  world.pairs.remove_if([&](Pair& pair) {
+    const std::size_t chunk = index / tolerance::kPairGrain;
+    const PairFindings& found = world.findings[index++];
+    if (found.gone) {
+      note_pair_end(world, pair);
+      return true;
+    }
+    pair.first_contact = found.first;
+    pair.contact_count = found.count;
+    pair.touching = found.count > 0 || found.overlaps;
+    move_contacts(pair, world.contacts_by_chunk[chunk], world.new_contacts);
+    for (Contact& contact : contacts_of(pair, world.new_contacts)) contact.pair = kept;
+    ++kept;
+    return false;
+  });
+  world.contacts.swap(world.new_contacts);
+}
+
+void report_contacts(WorldState& world) {
+  StepReport& report = world.report;
+  report.candidate_pairs = static_cast<std::uint32_t>(world.pairs.size());
+  for (const Pair& pair : world.pairs) report.touching_pairs += pair.contact_count > 0 ? 1 : 0;
+  world.deep_overlap = false;
+  for (const Contact& contact : world.contacts) {
+    report.contact_points += static_cast<std::uint32_t>(contact.manifold.count);
+    if (length_squared(contact.advance) > Real(0)) ++report.continuous;
+    Real depth = 0;
+    for (int k = 0; k < contact.manifold.count; ++k)
+      depth = std::max(depth, -contact.manifold.points[k].separation);
+    report.largest_penetration = std::max(report.largest_penetration, static_cast<double>(depth));
+    world.deep_overlap |= depth > tolerance::kDeepSlops * world.pairs[contact.pair].slop;
+  }
+}
+
 }  // namespace
 
 void collide_pairs(WorldState& world) {
-  std::vector<std::uint32_t>& all = world.touching;
-  const auto list_all = [&] {
-    all.resize(world.pairs.size());
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-    world.pair_gone.assign(all.size(), 0);
-  };
-  list_all();
-  collide_range(world, all);
+  collide_all(world);
   // A woken island brings its own contacts; they are computed once more together with all others,
   // which happens only in steps in which something wakes.
   while (world.flags.sleeping && wake_what_is_touched(world)) {
     find_pairs(world);
-    list_all();
-    collide_range(world, all);
+    collide_all(world);
   }
-  world.deep_overlap = false;
-  std::size_t index = 0;
-  world.pairs.remove_if([&](const Pair& pair) {
-    const bool gone = world.pair_gone[index++] != 0;
-    if (gone && pair.was_touching) {
-      const ColliderId a = world.colliders.id(pair.collider_a()),
-                       b = world.colliders.id(pair.collider_b());
-      if (pair.sensor) {
-        const bool a_senses = world.colliders.info[a.index].component.is_sensor;
-        world.gathering.sensors.push_back(
-            {SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
-      } else {
-        world.gathering.contacts.push_back(
-            {ContactEvent::Kind::End,
-             a,
-             b,
-             {pair.body_a, world.bodies.info[pair.body_a].generation},
-             {pair.body_b, world.bodies.info[pair.body_b].generation}});
-      }
-    }
-    return gone;
-  });
-  world.touching.clear();
-  world.report.candidate_pairs = static_cast<std::uint32_t>(world.pairs.size());
-  for (std::uint32_t i = 0; i < world.pairs.size(); ++i) {
-    Pair& pair = world.pairs[i];
-    pair.touching = pair.manifold.count > 0;
-    if (!pair.touching || pair.sensor) continue;
-    world.touching.push_back(i);
-    ++world.report.touching_pairs;
-    world.report.contact_points += static_cast<std::uint32_t>(pair.manifold.count);
-    if (length_squared(pair.advance) > Real(0)) ++world.report.continuous;
-    for (int k = 0; k < pair.manifold.count; ++k) {
-      const Real depth = -pair.manifold.points[k].separation;
-      world.report.largest_penetration =
-          std::max(world.report.largest_penetration, static_cast<double>(depth));
-      world.deep_overlap = world.deep_overlap || depth > tolerance::kDeepSlops * pair.slop;
-    }
-  }
+  take_findings(world);
+  report_contacts(world);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,24 +1,41 @@
-// Pairs of colliders whose bounds overlap, and what is remembered of their contact. The awake ones
-// are kept sorted by key, so that every stage meets them in the same order whatever the history.
+// Pairs of colliders whose bounds overlap, and the contacts found in them.
+//
+// A pair is small and lives as long as the bounds overlap; the awake ones are kept sorted by key,
+// so that every stage meets them in the same order whatever the history. A contact is one manifold
+// and what the solver remembers of it; all of them are made anew in every step, in the order of
+// their pairs, and the last step's are kept until the new ones have taken over their impulses.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "collision/manifold.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-struct Pair {
+struct Pair {                            // 48 bytes in f32
   std::uint64_t key = 0;                 // smaller collider slot << 32 | larger one
   std::uint32_t body_a = 0, body_b = 0;  // slots
   Real friction = 0, restitution = 0;    // combined [-]
   Real slop = 0;                         // [m]
+  std::uint32_t first_contact = 0;       // where its contacts lie, in order of their part
+  std::uint32_t contact_count = 0;
   bool sensor = false;
-  bool touching = false;       // has points (sensor: overlaps)
+  bool touching = false;       // has contacts (sensor: overlaps)
   bool was_touching = false;   // after the previous step
-  bool at_rest = false;        // the contact solver, not a bounce, carried it in the last substep
-  bool relative_to_b = false;  // else to A
+  bool relative_to_b = false;  // positions of its contacts are seen from B's centre, else from A's
+
+  [[nodiscard]] std::uint32_t collider_a() const { return static_cast<std::uint32_t>(key >> 32); }
+  [[nodiscard]] std::uint32_t collider_b() const {
+    return static_cast<std::uint32_t>(key & 0xffffffffu);
+  }
+};
+
+struct Contact {
+  std::uint32_t pair = 0;  // index into the awake pairs, valid within the step
+  std::uint32_t part = 0;  // of a shape made of parts: which one; else 0
+  bool at_rest = false;    // the contact solver, not a bounce, carried it in the last substep
   // A swept pair's manifold is that of the moment of first touch: B is then this much farther
   // along, seen from A [m], and the separations are those of the step's start again.
   Vec advance{0, 0, 0};
@@ -28,51 +45,52 @@ struct Pair {
   Vec friction_impulse[Manifold::kMaxPoints]{};      // [N s] on B, world axes
   Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step
   Vec step_friction_impulse[Manifold::kMaxPoints]{};
-
-  [[nodiscard]] std::uint32_t collider_a() const { return static_cast<std::uint32_t>(key >> 32); }
-  [[nodiscard]] std::uint32_t collider_b() const {
-    return static_cast<std::uint32_t>(key & 0xffffffffu);
-  }
 };
 
 inline std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
   return a < b ? (std::uint64_t{a} << 32 | b) : (std::uint64_t{b} << 32 | a);
 }
 
+// The contacts of one pair, wherever they are kept.
+inline std::span<Contact> contacts_of(const Pair& pair, std::vector<Contact>& store) {
+  return std::span(store).subspan(pair.first_contact, pair.contact_count);
+}
+inline std::span<const Contact> contacts_of(const Pair& pair, const std::vector<Contact>& store) {
+  return std::span(store).subspan(pair.first_contact, pair.contact_count);
+}
+// Moves a pair's contacts from one store to the end of another.
+inline void move_contacts(Pair& pair, const std::vector<Contact>& from, std::vector<Contact>& to) {
+  const std::span<const Contact> contacts = contacts_of(pair, from);
+  pair.first_contact = static_cast<std::uint32_t>(to.size());
+  to.insert(to.end(), contacts.begin(), contacts.end());
+}
+
 class PairStore {
  public:
   // Awake pairs in order of key.
-  [[nodiscard]] std::size_t size() const { return order_.size(); }
-  [[nodiscard]] Pair& operator[](std::size_t i) { return records_[order_[i].record]; }
-  [[nodiscard]] const Pair& operator[](std::size_t i) const { return records_[order_[i].record]; }
-  [[nodiscard]] Pair* find(std::uint64_t key);
+  [[nodiscard]] std::size_t size() const { return pairs_.size(); }
+  [[nodiscard]] Pair& operator[](std::size_t i) { return pairs_[i]; }
+  [[nodiscard]] const Pair& operator[](std::size_t i) const { return pairs_[i]; }
+  [[nodiscard]] auto begin() const { return pairs_.begin(); }
+  [[nodiscard]] auto end() const { return pairs_.end(); }
 
   // Adds pairs (sorted by key, none of them present) in one merge.
-  void insert_sorted(const std::vector<Pair>& pairs);
-  // Removes those for which `gone(pair)` holds, keeping the order.
+  void insert_sorted(const std::vector<Pair>& added);
+  // Removes those for which `gone(pair)` holds, keeping the order; called once for each, in order.
   template <class Gone>
   void remove_if(Gone&& gone) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      if (gone(records_[order_[i].record])) {
-        free_.push_back(order_[i].record);
-      } else {
-        order_[kept++] = order_[i];
-      }
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (gone(pairs_[i])) continue;
+      if (kept != i) pairs_[kept] = pairs_[i];
+      ++kept;
     }
-    order_.resize(kept);
+    pairs_.resize(kept);
   }
   [[nodiscard]] bool contains(std::uint64_t key) const;
-  void clear();
 
  private:
-  struct Entry {
-    std::uint64_t key;
-    std::uint32_t record;
-  };
-  std::vector<Entry> order_, merged_;
-  std::vector<Pair> records_;
-  std::vector<std::uint32_t> free_;
+  std::vector<Pair> pairs_, merged_;
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -84,28 +84,34 @@ void visit_collider(Table& t, ColliderInfo& c, ShapeNumbers& shape, WorldAabb& b
   t("bounds", box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z);
 }
 
+// The rest of a pair follows from its colliders.
 template <class Table>
 void visit_pair(Table& t, Pair& p, std::uint32_t& island) {
   t("key", p.key);
   t("island", island);
-  t("bodies", p.body_a, p.body_b);
-  t("flags", p.sensor, p.touching, p.was_touching, p.at_rest, p.relative_to_b);
-  t("surface", p.friction, p.restitution, p.slop);
-  Manifold& m = p.manifold;
+  t("flags", p.touching, p.was_touching);
+  t("contacts", p.contact_count);
+}
+
+template <class Table>
+void visit_contact(Table& t, Contact& c) {
+  Manifold& m = c.manifold;
+  t("part", c.part);
+  t("flags", c.at_rest);
   t("normal", m.normal.x, m.normal.y, m.normal.z);
-  t("advance", p.advance.x, p.advance.y, p.advance.z, p.advanced_gap);
+  t("advance", c.advance.x, c.advance.y, c.advance.z, c.advanced_gap);
   t("points", m.count);
   static constexpr const char* kNames[4][5] = {
       {"place0", "feature0", "impulse0", "friction0", "step0"},
       {"place1", "feature1", "impulse1", "friction1", "step1"},
       {"place2", "feature2", "impulse2", "friction2", "step2"},
       {"place3", "feature3", "impulse3", "friction3", "step3"}};
-  for (int k = 0; k < Manifold::kMaxPoints; ++k) {
+  for (std::size_t k = 0; k < Manifold::kMaxPoints; ++k) {
     ManifoldPoint& point = m.points[k];
-    Vec &f = p.friction_impulse[k], &s = p.step_friction_impulse[k];
+    Vec &f = c.friction_impulse[k], &s = c.step_friction_impulse[k];
     t(kNames[k][0], point.position.x, point.position.y, point.position.z, point.separation);
     t(kNames[k][1], point.feature);
-    t(kNames[k][2], p.normal_impulse[k], p.step_normal_impulse[k]);
+    t(kNames[k][2], c.normal_impulse[k], c.step_normal_impulse[k]);
     t(kNames[k][3], f.x, f.y, f.z);
     t(kNames[k][4], s.x, s.y, s.z);
   }
@@ -307,34 +313,70 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
   for (std::uint32_t body = 0; body < world.bodies.info.size(); ++body)
     if (world.bodies.info[body].alive) update_collider_frames(world, body);
   return read_list(in, "collider_free.slot", world.colliders.free_slots,
-                   world.colliders.info.size()) &&
-         read_list(in, "collider_query.slot", world.query_list, world.colliders.info.size());
+                   world.colliders.info.size());
+}
+
+void save_pairs(Snapshot& out, WorldState& world) {
+  std::size_t pairs = world.pairs.size(), contacts = world.contacts.size();
+  for (const SleepingIsland& island : world.islands) {
+    pairs += island.pairs.size();
+    contacts += island.contacts.size();
+  }
+  std::uint32_t index = kNone;
+  {
+    TableWriter table(out, "pair", pairs);
+    const auto write = [&](Pair& pair) {
+      table.next_row();
+      visit_pair(table, pair, index);
+    };
+    for (std::size_t i = 0; i < world.pairs.size(); ++i) write(world.pairs[i]);
+    for (index = 0; index < world.islands.size(); ++index)
+      for (Pair& pair : world.islands[index].pairs) write(pair);
+  }
+  TableWriter table(out, "contact", contacts);
+  const auto write = [&](const Pair& pair, std::vector<Contact>& store) {
+    for (Contact& contact : contacts_of(pair, store)) {
+      table.next_row();
+      visit_contact(table, contact);
+    }
+  };
+  for (const Pair& pair : world.pairs) write(pair, world.contacts);
+  for (SleepingIsland& island : world.islands)
+    for (const Pair& pair : island.pairs) write(pair, island.contacts);
 }
 
 bool restore_pairs(const Snapshot& in, WorldState& world) {
   std::vector<Pair> awake;
-  TableReader table(in, "pair");
+  TableReader table(in, "pair"), contacts(in, "contact");
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    Pair pair;
+    Pair seen;
     std::uint32_t island = kNone;
     table.next_row();
-    visit_pair(table, pair, island);
+    visit_pair(table, seen, island);
     const auto& colliders = world.colliders.info;
-    if (!table.ok() || pair.collider_a() >= colliders.size() ||
-        pair.collider_b() >= colliders.size())
+    if (!table.ok() || seen.collider_a() >= colliders.size() ||
+        seen.collider_b() >= colliders.size())
       return false;
-    if (!colliders[pair.collider_a()].alive || !colliders[pair.collider_b()].alive) return false;
-    if (colliders[pair.collider_a()].body != pair.body_a ||
-        colliders[pair.collider_b()].body != pair.body_b)
-      return false;
-    if (pair.manifold.count < 0 || pair.manifold.count > Manifold::kMaxPoints) return false;
-    if (island == kNone) {
-      if (!awake.empty() && awake.back().key >= pair.key) return false;
-      awake.push_back(pair);
-    } else {
-      if (island >= world.islands.size() || !world.islands[island].used) return false;
-      world.islands[island].pairs.push_back(pair);
+    if (!colliders[seen.collider_a()].alive || !colliders[seen.collider_b()].alive) return false;
+    Pair pair = make_pair(world, seen.key);
+    pair.touching = seen.touching;
+    pair.was_touching = seen.was_touching;
+    const bool asleep = island != kNone;
+    if (asleep && (island >= world.islands.size() || !world.islands[island].used)) return false;
+    if (!asleep && !awake.empty() && awake.back().key >= pair.key) return false;
+    std::vector<Contact>& store = asleep ? world.islands[island].contacts : world.contacts;
+    pair.first_contact = static_cast<std::uint32_t>(store.size());
+    pair.contact_count = seen.contact_count;
+    for (std::uint32_t k = 0; k < seen.contact_count; ++k) {
+      Contact contact;
+      contacts.next_row();
+      visit_contact(contacts, contact);
+      if (!contacts.ok() || contact.manifold.count < 0 ||
+          contact.manifold.count > Manifold::kMaxPoints)
+        return false;
+      store.push_back(contact);
     }
+    (asleep ? world.islands[island].pairs : awake).push_back(pair);
   }
   world.pairs.insert_sorted(awake);
   return true;
@@ -360,6 +402,20 @@ bool restore_islands(const Snapshot& in, WorldState& world) {
   return true;
 }
 
+// Work lists that follow from the rest. Whether a body was acted on is not saved: all awake ones
+// are looked at, which changes nothing for the others.
+void restore_lists(WorldState& world) {
+  const BodyStore& bodies = world.bodies;
+  for (std::uint32_t slot = 0; slot < world.colliders.info.size(); ++slot) {
+    const ColliderInfo& collider = world.colliders.info[slot];
+    if (!collider.alive) continue;
+    update_reach(world, slot);
+    if (collider.query_pairs) world.query_list.push_back(slot);
+  }
+  world.touched.assign(bodies.slot_of.begin() + bodies.awake_begin,
+                       bodies.slot_of.begin() + bodies.awake_end);
+}
+
 }  // namespace
 }  // namespace detail
 
@@ -369,30 +425,27 @@ Snapshot PhysicsWorld::save() const {
   Snapshot out;
   out.precision = kPrecisionName;
   {
-    TableWriter table(out, "world");
+    TableWriter table(out, "world", 1);
     table.next_row();
     visit_world(table, world);
   }
   {
-    TableWriter table(out, "body");
+    TableWriter table(out, "body", world.bodies.info.size());
     for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
-      BodyInfo info = world.bodies.info[slot];
+      BodyInfo& info = world.bodies.info[slot];
       const std::uint32_t dense = info.alive ? info.dense : 0;
-      BodyVelocity velocity = world.bodies.velocity[dense];
-      BodyPose pose = world.bodies.pose[dense];
-      BodyMomentum momentum = world.bodies.momentum[dense];
-      BodyForce force = world.bodies.force[dense];
-      Real gravity_scale = world.bodies.mass[dense].gravity_scale;
       bool awake = info.alive && world.bodies.is_awake(slot);
       table.next_row();
-      visit_body(table, info, velocity, pose, momentum, force, gravity_scale, awake);
+      visit_body(table, info, world.bodies.velocity[dense], world.bodies.pose[dense],
+                 world.bodies.momentum[dense], world.bodies.force[dense],
+                 world.bodies.mass[dense].gravity_scale, awake);
     }
   }
   add_list(out, "body_free.slot", world.bodies.free_slots);
   std::vector<std::shared_ptr<const HullGeometry>> hulls;
   {
-    TableWriter table(out, "collider");
-    for (ColliderInfo info : world.colliders.info) {
+    TableWriter table(out, "collider", world.colliders.info.size());
+    for (ColliderInfo& info : world.colliders.info) {
       ShapeNumbers shape = numbers_of(info.component.shape, hulls);
       const AabbTree& tree = info.is_static ? world.static_tree : world.moving_tree;
       WorldAabb box = info.alive ? tree.box(info.proxy) : WorldAabb{};
@@ -406,20 +459,8 @@ Snapshot PhysicsWorld::save() const {
     order.insert(order.end(), info.colliders.begin(), info.colliders.end());
   add_list(out, "collider_order.slot", order);
   add_list(out, "collider_free.slot", world.colliders.free_slots);
-  add_list(out, "collider_query.slot", world.query_list);
-  add_list(out, "body_touched.slot", world.touched);
   add_list(out, "island_free.index", world.free_islands);
-  {
-    TableWriter table(out, "pair");
-    std::uint32_t island = kNone;
-    const auto write = [&](Pair pair) {
-      table.next_row();
-      visit_pair(table, pair, island);
-    };
-    for (std::size_t i = 0; i < world.pairs.size(); ++i) write(world.pairs[i]);
-    for (island = 0; island < world.islands.size(); ++island)
-      for (const Pair& pair : world.islands[island].pairs) write(pair);
-  }
+  save_pairs(out, world);
   return out;
 }
 
@@ -441,9 +482,9 @@ Status PhysicsWorld::restore(const Snapshot& snapshot) {
   visit_world(table, *made);
   if (!table.ok() || !check(made->settings).ok()) return damaged;
   if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) ||
-      !restore_islands(snapshot, *made) || !restore_pairs(snapshot, *made) ||
-      !read_list(snapshot, "body_touched.slot", made->touched, made->bodies.info.size()))
+      !restore_islands(snapshot, *made) || !restore_pairs(snapshot, *made))
     return damaged;
+  restore_lists(*made);
   made->jobs = state_->jobs;
   made->observers = state_->observers;
   state_ = std::move(made);

@@ -10,11 +10,11 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-// Appends rows to columns that it makes with the first row.
+// Appends rows to columns that it makes with the first row. `rows`: how many will come.
 class TableWriter {
  public:
-  TableWriter(Snapshot& out, const char* table)
-      : out_(out), table_(table), first_(out.columns.size()) {}
+  TableWriter(Snapshot& out, const char* table, std::size_t rows)
+      : out_(out), table_(table), rows_(rows), first_(out.columns.size()) {}
   void next_row() { cursor_ = first_; }
   template <class... T>
   void operator()(const char* name, T&... values) {
@@ -25,20 +25,27 @@ class TableWriter {
       column.name = std::string(table_) + "." + name;
       column.width = sizeof...(T);
       column.type = kIsReal ? SnapshotColumn::Type::Float64 : SnapshotColumn::Type::Uint64;
+      if constexpr (kIsReal) {
+        column.reals.reserve(rows_ * sizeof...(T));
+      } else {
+        column.integers.reserve(rows_ * sizeof...(T));
+      }
       out_.columns.push_back(std::move(column));
     }
     SnapshotColumn& column = out_.columns[cursor_++];
     if constexpr (kIsReal) {
-      (column.reals.push_back(static_cast<double>(values)), ...);
+      const double row[] = {static_cast<double>(values)...};
+      column.reals.insert(column.reals.end(), row, row + sizeof...(T));
     } else {
-      (column.integers.push_back(static_cast<std::uint64_t>(values)), ...);
+      const std::uint64_t row[] = {static_cast<std::uint64_t>(values)...};
+      column.integers.insert(column.integers.end(), row, row + sizeof...(T));
     }
   }
 
  private:
   Snapshot& out_;
   const char* table_;
-  std::size_t first_, cursor_ = 0;
+  std::size_t rows_, first_, cursor_ = 0;
 };
 
 // Reads rows of the same columns; every mismatch makes it fail, never read outside.

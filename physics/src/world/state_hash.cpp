@@ -7,28 +7,43 @@ namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
 
+// Four chains of multiply-rotate mixing [Steele 2014], taken in turn, so that one word need not
+// wait for the last; two single-precision numbers share a word.
 class Digest {
  public:
-  void add(std::uint64_t word) {  // multiply-rotate mixing of 64-bit words [Steele 2014]
-    state_ = std::rotl(state_ ^ (word * 0x9e3779b97f4a7c15u), 29) * 0xbf58476d1ce4e5b9u;
+  void add(std::uint64_t word) {
+    std::uint64_t& chain = chains_[count_++ % kChains];
+    chain = std::rotl(chain ^ (word * 0x9e3779b97f4a7c15u), 29) * 0xbf58476d1ce4e5b9u;
   }
-  void add(float v) { add(std::uint64_t{std::bit_cast<std::uint32_t>(v)}); }
   void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
-  template <class T>
-  void add(Vector3<T> v) {
-    add(v.x);
-    add(v.y);
-    add(v.z);
+  void add(float a, float b) {
+    add(std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b));
+  }
+  template <class T, std::size_t N>
+  void add(const T (&values)[N]) {
+    if constexpr (sizeof(T) == sizeof(float)) {
+      for (std::size_t i = 0; i + 1 < N; i += 2) add(values[i], values[i + 1]);
+      if constexpr (N % 2 == 1) add(values[N - 1], 0.0f);
+    } else {
+      for (const T v : values) add(v);
+    }
   }
   [[nodiscard]] std::uint64_t value() const {
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    std::uint64_t all = count_;
+    for (const std::uint64_t chain : chains_) {
+      std::uint64_t z = all ^ chain;
+      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+      z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+      all = z ^ (z >> 31);
+    }
+    return all;
   }
 
  private:
-  std::uint64_t state_ = 0x2545f4914f6cdd1du;
+  static constexpr std::size_t kChains = 4;
+  std::uint64_t chains_[kChains] = {0x2545f4914f6cdd1du, 0x9e6c63d0676a9a99u, 0xd1342543de82ef95u,
+                                    0xf1357aea2e62a9c5u};
+  std::uint64_t count_ = 0;
 };
 
 }  // namespace
@@ -42,24 +57,24 @@ std::uint64_t PhysicsWorld::state_hash() const {
     const BodyInfo& info = world.bodies.info[slot];
     if (!info.alive) continue;
     const BodyPose& pose = world.bodies.pose[info.dense];
+    const BodyVelocity& u = world.bodies.velocity[info.dense];
+    const Vec L = world.bodies.momentum[info.dense].L;
     digest.add(std::uint64_t{info.generation} << 32 | slot);
-    digest.add(pose.x);
-    digest.add(Vec{pose.q.x, pose.q.y, pose.q.z});
-    digest.add(pose.q.w);
-    digest.add(world.bodies.velocity[info.dense].v);
-    digest.add(world.bodies.velocity[info.dense].w);
-    digest.add(world.bodies.momentum[info.dense].L);
-    digest.add(info.rest_time);
+    digest.add({pose.x.x, pose.x.y, pose.x.z});
+    digest.add({pose.q.x, pose.q.y, pose.q.z, pose.q.w, u.v.x, u.v.y, u.v.z, u.w.x, u.w.y, u.w.z,
+                L.x, L.y, L.z, info.rest_time});
     digest.add(std::uint64_t{world.bodies.is_awake(slot)} << 1 | std::uint64_t{info.disabled});
   }
-  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
-    const Pair& pair = world.pairs[i];
-    if (pair.manifold.count == 0) continue;  // follows from the poses and boxes
-    digest.add(pair.key);
-    digest.add(static_cast<std::uint64_t>(pair.manifold.count));
-    for (int k = 0; k < pair.manifold.count; ++k) {
-      digest.add(pair.normal_impulse[k]);
-      digest.add(pair.friction_impulse[k]);
+  // Pairs without contacts follow from the poses and boxes.
+  for (const Pair& pair : world.pairs) {
+    for (const Contact& contact : contacts_of(pair, world.contacts)) {
+      const int count = contact.manifold.count;
+      digest.add(pair.key);
+      digest.add(std::uint64_t{contact.part} << 32 | static_cast<std::uint64_t>(count));
+      for (int k = 0; k < count; ++k) {
+        const Vec f = contact.friction_impulse[k];
+        digest.add({contact.normal_impulse[k], f.x, f.y, f.z});
+      }
     }
   }
   return digest.value();

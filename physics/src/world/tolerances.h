@@ -17,8 +17,8 @@ inline constexpr Real kMarginSlops = Real(4);
 // Boxes in the broadphase are grown by this fraction of the body's smallest thickness [-]. Larger:
 // fewer tree updates, more false pairs.
 inline constexpr Real kFatBoxFraction = Real(0.1);
-// ... and reach ahead by the distance of this many steps [-], so that a fast body re-enters the
-// tree every few steps only.
+// ... and reach ahead along the path of this many steps [-], so that a fast body re-enters the tree
+// every few steps only.
 inline constexpr Real kFatBoxSteps = Real(2);
 
 // Overlap is worked off no faster than this many thicknesses a second [1/s]. 2: a 1 m box leaves

@@ -10,23 +10,6 @@ namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
 
-void end_pair(WorldState& world, const Pair& pair) {
-  if (!pair.was_touching) return;
-  const ColliderId a = world.colliders.id(pair.collider_a()),
-                   b = world.colliders.id(pair.collider_b());
-  if (pair.sensor) {
-    const bool a_senses = world.colliders.info[a.index].component.is_sensor;
-    world.gathering.sensors.push_back(
-        {SensorEvent::Kind::Exit, a_senses ? a : b, a_senses ? b : a});
-  } else {
-    world.gathering.contacts.push_back({ContactEvent::Kind::End,
-                                        a,
-                                        b,
-                                        {pair.body_a, world.bodies.info[pair.body_a].generation},
-                                        {pair.body_b, world.bodies.info[pair.body_b].generation}});
-  }
-}
-
 void count_collider(WorldState& world, const Collider& component, std::uint32_t change) {
   if (component.is_sensor) world.counts.sensors += change;
   if (component.material.restitution > 0) world.counts.restitution += change;
@@ -37,7 +20,7 @@ void remove_collider(WorldState& world, std::uint32_t slot) {
   BodyInfo& owner = world.bodies.info[collider.body];
   world.pairs.remove_if([&](const Pair& pair) {
     if (pair.collider_a() != slot && pair.collider_b() != slot) return false;
-    end_pair(world, pair);
+    note_pair_end(world, pair);
     return true;
   });
   (collider.is_static ? world.static_tree : world.moving_tree).remove(collider.proxy);

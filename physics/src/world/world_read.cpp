@@ -32,26 +32,28 @@ BodyState state_of(const WorldState& world, std::uint32_t slot) {
   return state;
 }
 
-void append_contact(const WorldState& world, const Pair& pair, std::vector<ContactState>& out) {
-  if (pair.sensor || !pair.was_touching) return;
-  ContactState contact;
-  contact.a = world.colliders.id(pair.collider_a());
-  contact.b = world.colliders.id(pair.collider_b());
-  contact.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
-  contact.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
-  contact.normal = to_public(pair.manifold.normal);
-  contact.point_count = pair.manifold.count;
+void append_contacts(const WorldState& world, const Pair& pair, const std::vector<Contact>& store,
+                     std::vector<ContactState>& out) {
+  if (pair.contact_count == 0 || !pair.was_touching) return;
   const std::uint32_t reference =
       world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
-  for (int i = 0; i < pair.manifold.count; ++i) {
-    ContactState::Point& point = contact.points[i];
-    point.position = to_public_position(world.bodies.pose[reference].x +
-                                        cast<PosReal>(pair.manifold.points[i].position));
-    point.separation = pair.manifold.points[i].separation;
-    point.normal_impulse = pair.step_normal_impulse[i];
-    point.friction_impulse = to_public(pair.step_friction_impulse[i]);
+  const PosVec origin = world.bodies.pose[reference].x;
+  for (const Contact& from : contacts_of(pair, store)) {
+    ContactState& contact = out.emplace_back();
+    contact.a = world.colliders.id(pair.collider_a());
+    contact.b = world.colliders.id(pair.collider_b());
+    contact.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
+    contact.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
+    contact.normal = to_public(from.manifold.normal);
+    contact.point_count = from.manifold.count;
+    for (int i = 0; i < from.manifold.count; ++i) {
+      ContactState::Point& point = contact.points[i];
+      point.position = to_public_position(origin + cast<PosReal>(from.manifold.points[i].position));
+      point.separation = from.manifold.points[i].separation;
+      point.normal_impulse = from.step_normal_impulse[i];
+      point.friction_impulse = to_public(from.step_friction_impulse[i]);
+    }
   }
-  out.push_back(contact);
 }
 
 }  // namespace
@@ -160,10 +162,11 @@ void PhysicsWorld::copy_moved_body_states(std::vector<BodyState>& out) const {
 }
 void PhysicsWorld::copy_contacts(std::vector<ContactState>& out) const {
   out.clear();
-  for (std::size_t i = 0; i < state_->pairs.size(); ++i)
-    detail::append_contact(*state_, state_->pairs[i], out);
+  for (const detail::Pair& pair : state_->pairs)
+    detail::append_contacts(*state_, pair, state_->contacts, out);
   for (const detail::SleepingIsland& island : state_->islands)
-    for (const detail::Pair& pair : island.pairs) detail::append_contact(*state_, pair, out);
+    for (const detail::Pair& pair : island.pairs)
+      detail::append_contacts(*state_, pair, island.contacts, out);
 }
 
 EnergyReport PhysicsWorld::energy() const {

@@ -19,6 +19,7 @@ struct SleepingIsland {
   bool used = false;
   std::vector<std::uint32_t> bodies;  // slots, ascending
   std::vector<Pair> pairs;            // by key
+  std::vector<Contact> contacts;      // theirs
 };
 
 struct EventLists {
@@ -50,6 +51,13 @@ struct SceneCounts {
   std::uint32_t restitution = 0;  // colliders with restitution > 0
 };
 
+// What the narrowphase found in one pair, before anything is changed.
+struct PairFindings {
+  std::uint32_t first = 0, count = 0;  // contacts, within its chunk's list
+  bool gone = false;                   // the bounds are apart, or all sleeps
+  bool overlaps = false;               // sensors: whether they see the other
+};
+
 // One colour: rows among which no two share a dynamic body.
 struct ColorRange {
   std::uint32_t begin, end;
@@ -60,7 +68,9 @@ struct WorldState {
   BodyStore bodies;
   ColliderStore colliders;
   AabbTree static_tree, moving_tree;
+  std::vector<WorldAabb> reach;  // per collider slot: all its places in the next step
   PairStore pairs;
+  std::vector<Contact> contacts;  // of the awake pairs, in their order
   std::vector<SleepingIsland> islands;
   std::vector<std::uint32_t> free_islands;
   SceneCounts counts;
@@ -79,8 +89,7 @@ struct WorldState {
   Real last_h = 0;                       // [s] substep to which the remembered impulses belong
   bool deep_overlap = false;             // some contact of this step begins far inside
   Real proxy_dt = 0;                     // [s] step for which the boxes reach ahead
-  std::vector<std::uint32_t> touching;   // indices into pairs
-  std::vector<std::uint32_t> row_order;  // touching pairs by colour
+  std::vector<std::uint32_t> row_order;  // contacts by colour
   std::vector<ColorRange> colors;
   std::vector<ContactRow<Real>> rows;  // in colour order
   std::vector<std::uint32_t> bouncing_rows;
@@ -91,7 +100,9 @@ struct WorldState {
   std::vector<std::uint64_t> new_keys;
   std::vector<std::vector<std::uint64_t>> new_keys_by_chunk;
   std::vector<Pair> new_pairs;
-  std::vector<std::uint8_t> pair_gone;
+  std::vector<PairFindings> findings;  // per awake pair
+  std::vector<std::vector<Contact>> contacts_by_chunk;
+  std::vector<Contact> new_contacts;
   std::vector<std::uint32_t> bodies_to_wake;
   std::vector<std::uint32_t> query_list;  // collider slots whose pairs must be sought
   std::vector<std::uint32_t> touched;     // body slots that somebody acted on since the last step
@@ -135,10 +146,16 @@ unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row);
 void run_substeps(WorldState& world);
 void finalize_bodies(WorldState& world);
 
+// --- events (world/contact_events.cpp) ---
+void note_pair_end(WorldState& world, const Pair& pair);  // nothing if it did not touch
+void note_contact_events(WorldState& world);
+void note_hits(WorldState& world);
+
 // --- pairs ---
-void forget_pairs_of_collider(WorldState& world, std::uint32_t collider);
 Pair make_pair(const WorldState& world, std::uint64_t key);
 bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t collider_b);
 void update_proxy(WorldState& world, std::uint32_t collider, bool force);
+// The box of all places that a collider may take in the next step; returns its body's path [m].
+PosVec update_reach(WorldState& world, std::uint32_t collider);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,97 @@
+// Events of contacts and sensors, gathered in the order of pairs.
+#include <limits>
+
+#include "math/eigen_bridge.h"
+#include "world/tolerances.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+void note_sensor(WorldState& world, const Pair& pair, SensorEvent::Kind kind) {
+  const ColliderId a = world.colliders.id(pair.collider_a()),
+                   b = world.colliders.id(pair.collider_b());
+  const bool a_senses = world.colliders.info[a.index].component.is_sensor;
+  world.gathering.sensors.push_back({kind, a_senses ? a : b, a_senses ? b : a});
+}
+
+void note_contact(WorldState& world, const Pair& pair, ContactEvent::Kind kind) {
+  world.gathering.contacts.push_back({kind,
+                                      world.colliders.id(pair.collider_a()),
+                                      world.colliders.id(pair.collider_b()),
+                                      {pair.body_a, world.bodies.info[pair.body_a].generation},
+                                      {pair.body_b, world.bodies.info[pair.body_b].generation}});
+}
+
+}  // namespace
+
+void note_pair_end(WorldState& world, const Pair& pair) {
+  if (!pair.was_touching) return;
+  if (pair.sensor) {
+    note_sensor(world, pair, SensorEvent::Kind::Exit);
+  } else {
+    note_contact(world, pair, ContactEvent::Kind::End);
+  }
+}
+
+// Begin when surfaces are within a slop or push; end when no point is left within the margin.
+void note_contact_events(WorldState& world) {
+  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
+    Pair& pair = world.pairs[i];
+    bool now = pair.was_touching && pair.touching;
+    if (pair.sensor) {
+      now = pair.touching;
+    } else if (pair.touching) {
+      Real nearest = std::numeric_limits<Real>::max(), impulse = 0;
+      for (const Contact& contact : contacts_of(pair, world.contacts)) {
+        for (int k = 0; k < contact.manifold.count; ++k) {
+          nearest = std::min(nearest, contact.manifold.points[k].separation);
+          impulse = std::max(impulse, contact.step_normal_impulse[k]);
+        }
+      }
+      now = impulse > Real(0) || nearest <= pair.slop ||
+            (pair.was_touching && nearest <= tolerance::kMarginSlops * pair.slop);
+    }
+    if (now == pair.was_touching) continue;
+    pair.was_touching = now;
+    if (pair.sensor) {
+      note_sensor(world, pair, now ? SensorEvent::Kind::Enter : SensorEvent::Kind::Exit);
+    } else {
+      note_contact(world, pair, now ? ContactEvent::Kind::Begin : ContactEvent::Kind::End);
+    }
+  }
+}
+
+// Contacts that began with an approach above the bounce threshold and were stopped without a
+// bounce.
+void note_hits(WorldState& world) {
+  for (const ContactRow<Real>& row : world.rows) {
+    if (row.bounced) continue;
+    const Contact& contact = world.contacts[row.contact];
+    const Pair& pair = world.pairs[contact.pair];
+    if (pair.was_touching || row.approach_speed <= tolerance::kBounceCutResting * row.cut_unit)
+      continue;
+    HitEvent hit;
+    Vec place{0, 0, 0};
+    Real impulse = 0;
+    for (int i = 0; i < row.count; ++i) {
+      impulse += row.points[i].impulse_sum;
+      place += row.points[i].impulse_sum * contact.manifold.points[i].position;
+    }
+    if (!(impulse > Real(0))) continue;
+    const std::uint32_t reference =
+        world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
+    hit.a = world.colliders.id(pair.collider_a());
+    hit.b = world.colliders.id(pair.collider_b());
+    hit.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
+    hit.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
+    hit.point = to_public_position(world.bodies.pose[reference].x +
+                                   cast<PosReal>((Real(1) / impulse) * place));
+    hit.normal = to_public(row.n);
+    hit.approach_speed = row.approach_speed;
+    hit.impulse = impulse;
+    world.gathering.hits.push_back(hit);
+  }
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail
