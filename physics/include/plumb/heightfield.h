@@ -11,10 +11,10 @@
 
 namespace plumb::inline PLUMB_ABI {
 
-// Heights in y over a grid in x and z: sample (i, k) stands at (i * spacing_x, height, k * spacing_z)
-// in the shape's frame. The cell between samples (i, k) and (i + 1, k + 1) is two triangles that
-// share the edge between these two; both look towards +y. A cell with a height that is NaN is a hole.
-// One number a sample, nothing else is stored.
+// Heights in y over a grid in x and z: sample (i, k) stands at (i * spacing_x, height, k *
+// spacing_z) in the shape's frame. The cell between samples (i, k) and (i + 1, k + 1) is two
+// triangles that share the edge between these two; both look towards +y. A cell with a height that
+// is NaN is a hole. One number a sample, nothing else is stored.
 class HeightfieldGeometry {
  public:
   struct Result {

@@ -109,7 +109,7 @@ struct Compound {
   std::shared_ptr<const CompoundGeometry> geometry;
 };
 
-using Shape = std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, TriangleMesh, Heightfield,
-                           Compound>;
+using Shape =
+    std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, TriangleMesh, Heightfield, Compound>;
 
 }  // namespace plumb::inline PLUMB_ABI

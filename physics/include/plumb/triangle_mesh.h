@@ -24,9 +24,9 @@ enum class EdgeKind : std::uint8_t {
   Convex,   // a ridge
 };
 
-// Triangles with a search tree and their neighbours, checked once when it is made, then shared by any
-// number of colliders. A triangle's front is where its corners run counter-clockwise; only fronts
-// collide. About 50 bytes a triangle in single precision (see bytes()).
+// Triangles with a search tree and their neighbours, checked once when it is made, then shared by
+// any number of colliders. A triangle's front is where its corners run counter-clockwise; only
+// fronts collide. About 50 bytes a triangle in single precision (see bytes()).
 class TriangleMeshGeometry {
  public:
   struct Result {

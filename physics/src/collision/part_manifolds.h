@@ -12,6 +12,7 @@ namespace plumb::inline PLUMB_ABI::detail {
 struct PartManifold {
   std::uint32_t part;  // names the place of the contact; stays while the contact does
   Manifold manifold;
+  Real radius_a = 0, radius_b = 0;  // [m] of the rounded shapes, or children, that touch
 };
 
 // In ascending order of part, each part once. Keep one for many pairs: it keeps its storage.

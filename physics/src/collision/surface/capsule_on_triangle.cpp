@@ -80,7 +80,7 @@ struct CapsuleContact {
         point_at(axis, at) - (radius + Num(0.5) * separation) * out.normal, separation, name};
   }
 
-  bool face(const FacePolygon& polygon, const ClippedAxis& part) {
+  bool face(const ClippedAxis& part) {
     out.normal = t.normal;
     out.of_face = true;
     for (int i = 0; i < 2; ++i) {
@@ -119,7 +119,7 @@ struct CapsuleContact {
   }
 
   // The axis passes through the triangle: the least way out over a face or a ridge.
-  bool pierced(const FacePolygon& polygon, const ClippedAxis& part) {
+  bool pierced(const ClippedAxis& part) {
     Num deepest = std::min(t.height(axis.start), t.height(axis.end));
     int ridge = -1;
     NumVec ridge_normal = t.normal;
@@ -137,7 +137,7 @@ struct CapsuleContact {
       if (s > deepest + kFacePreference * on.thickness)
         deepest = s, ridge = k, ridge_normal = n, ridge_at = at;
     }
-    if (ridge < 0) return face(polygon, part);
+    if (ridge < 0) return face(part);
     out.normal = ridge_normal;
     out.of_face = false;
     out.feature = feature_part(t, {SurfaceFeature::Kind::Edge, ridge});
@@ -161,16 +161,15 @@ bool touch_capsule(const ConvexOnSurface& on, const SurfaceTriangle& t, Triangle
   CapsuleContact contact{on, t, axis, radius, out};
   ClippedAxis part;
   const bool above = clip(t, polygon, axis, kAttained * on.thickness, part);
-  const Num lowest = above ? std::min(t.height(point_at(axis, part.at[0])),
-                                      t.height(point_at(axis, part.at[1])))
-                           : std::numeric_limits<Num>::infinity();
-  if (above && lowest <= Num(0)) return contact.pierced(polygon, part);
+  const Num lowest =
+      above ? std::min(t.height(point_at(axis, part.at[0])), t.height(point_at(axis, part.at[1])))
+            : std::numeric_limits<Num>::infinity();
+  if (above && lowest <= Num(0)) return contact.pierced(part);
 
   const Closest closest = closest_of(t, axis);
   const Num distance = std::sqrt(closest.squared);
   if (!(distance - radius <= on.margin)) return false;
-  if (above && lowest <= distance + kFacePreference * on.thickness)
-    return contact.face(polygon, part);
+  if (above && lowest <= distance + kFacePreference * on.thickness) return contact.face(part);
   const NumVec d = point_at(axis, closest.on_axis) - closest.on_triangle;
   if (distance > kTouching * on.thickness && dot(d, t.normal) > Num(0)) {
     NumVec n = (Num(1) / distance) * d;
@@ -180,7 +179,7 @@ bool touch_capsule(const ConvexOnSurface& on, const SurfaceTriangle& t, Triangle
     }
   }
   // The closest place is a neighbour's, but what lies above this triangle is this triangle's.
-  return above && contact.face(polygon, part);
+  return above && contact.face(part);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

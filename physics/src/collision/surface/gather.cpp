@@ -1,5 +1,5 @@
-// From the contacts of single triangles to the manifolds of a pair: what lies in one plane becomes one
-// manifold, whose four points are chosen among the corners of all of it.
+// From the contacts of single triangles to the manifolds of a pair: what lies in one plane becomes
+// one manifold, whose four points are chosen among the corners of all of it.
 #include <algorithm>
 #include <cmath>
 
@@ -45,8 +45,8 @@ void drop_doubles(std::vector<ContactPoint>& points, Num same) {
   points.resize(kept);
 }
 
-// Keeps the corners of the area that the points span, in order around it (Andrew's monotone chain in
-// the plane of the contact), and the deepest point of all.
+// Keeps the corners of the area that the points span, in order around it (Andrew's monotone chain
+// in the plane of the contact), and the deepest point of all.
 void keep_hull(std::vector<ContactPoint>& points, NumVec normal, Num tolerance) {
   if (points.size() < 3) return;
   NumVec u, v;
@@ -163,8 +163,7 @@ void finish_parts(PartManifolds& all, const SurfacePlacement& at, Num thickness,
     Contacts chosen;
     choose_points(candidates, group.normal, kDeepestTie * thickness, chosen);
     PartManifold part;
-    part.part = group.of_face ? plane_part(group.normal, group.origin, thickness)
-                              : group.feature;
+    part.part = group.of_face ? plane_part(group.normal, group.origin, thickness) : group.feature;
     const NumVec normal = normalized_or(rotate(at.q, group.normal), NumVec{0, 1, 0});
     part.manifold.normal = cast<Real>(swapped ? -normal : normal);
     part.manifold.count = chosen.count;

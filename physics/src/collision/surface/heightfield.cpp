@@ -30,9 +30,8 @@ HeightfieldGeometry::Result HeightfieldGeometry::create(std::uint32_t samples_x,
                "a heightfield may have at most 134217728 samples: cut it into several");
   if (!std::isfinite(spacing_x) || !std::isfinite(spacing_z))
     return bad(StatusCode::NotFinite, "a heightfield's spacing must be finite [m]");
-  const detail::Num largest =
-      std::max(static_cast<detail::Num>(spacing_x) * (samples_x - 1),
-               static_cast<detail::Num>(spacing_z) * (samples_z - 1));
+  const detail::Num largest = std::max(static_cast<detail::Num>(spacing_x) * (samples_x - 1),
+                                       static_cast<detail::Num>(spacing_z) * (samples_z - 1));
   const detail::Num smallest = static_cast<detail::Num>(std::min(spacing_x, spacing_z));
   if (!(smallest >= detail::kSmallestSize) || largest > detail::kLargestSize)
     return bad(StatusCode::OutOfRange,
@@ -136,7 +135,8 @@ void HeightfieldSurface::triangle(std::uint32_t t, SurfaceTriangle& out) const {
   const std::int64_t ci = i, ck = k;
   const Beyond beyond[3] = {
       second ? Beyond{true, i, k + 1} : Beyond{is_solid(ci - 1, ck), i - 1, k},
-      second ? Beyond{is_solid(ci + 1, ck), i + 2, k + 1} : Beyond{is_solid(ci, ck + 1), i + 1, k + 2},
+      second ? Beyond{is_solid(ci + 1, ck), i + 2, k + 1}
+             : Beyond{is_solid(ci, ck + 1), i + 1, k + 2},
       second ? Beyond{is_solid(ci, ck - 1), i, k - 1} : Beyond{true, i + 1, k}};
   const Num noise = kFlatUlps * static_cast<Num>(std::numeric_limits<Real>::epsilon()) *
                     std::max({std::abs(p00.y), std::abs(p01.y), std::abs(p10.y), std::abs(p11.y)});

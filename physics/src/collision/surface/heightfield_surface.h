@@ -41,7 +41,7 @@ class HeightfieldSurface final : public CornerCones {
   }
   // Walks the cells under the segment in the order in which it passes them.
   template <class Visit>
-  void cast(NumVec origin, NumVec direction, Num max_fraction, Visit&& visit) const;
+  void cast_segment(NumVec origin, NumVec direction, Num max_fraction, Visit&& visit) const;
   // Rings of cells around the box, nearest first.
   template <class Visit>
   void nearest(const NumBox& box, Num largest, Visit&& visit) const;
@@ -68,8 +68,8 @@ class HeightfieldSurface final : public CornerCones {
 };
 
 template <class Visit>
-void HeightfieldSurface::cast(NumVec origin, NumVec direction, Num max_fraction,
-                              Visit&& visit) const {
+void HeightfieldSurface::cast_segment(NumVec origin, NumVec direction, Num max_fraction,
+                                      Visit&& visit) const {
   const SegmentQuery ray(origin, direction);
   Num enter = 0;
   if (!ray.meets(bounds(), max_fraction, enter)) return;

@@ -26,8 +26,8 @@ NumVec MeshSurface::normal_of(std::uint32_t t) const {
   const Num low = kSliverUlps * rounding_;
   const Num area_squared = length_squared(doubled_area(p[0], p[1], p[2]));
   NumVec n = own(t);
-  const std::uint32_t other = mesh_.edges.empty() ? EdgeLink::kNobody
-                                                  : mesh_.edges[t][longest].triangle();
+  const std::uint32_t other =
+      mesh_.edges.empty() ? EdgeLink::kNobody : mesh_.edges[t][longest].triangle();
   if (area_squared < low * low * side && other != EdgeLink::kNobody) {
     const NumVec borrowed = own(other);
     if (length_squared(borrowed) > length_squared(n)) n = borrowed;

@@ -36,7 +36,7 @@ class MeshSurface final : public CornerCones {
     });
   }
   template <class Visit>
-  void cast(NumVec origin, NumVec direction, Num max_fraction, Visit&& visit) const {
+  void cast_segment(NumVec origin, NumVec direction, Num max_fraction, Visit&& visit) const {
     SurfaceTriangle t;
     const SegmentQuery ray(divide(origin), divide(direction));
     mesh_.tree.cast(ray, max_fraction, [&](std::uint32_t place, Num largest) {
@@ -62,7 +62,9 @@ class MeshSurface final : public CornerCones {
   [[nodiscard]] NumBox scaled(const NumBox& b) const {
     return {multiply_each(scale_, b.lower), multiply_each(scale_, b.upper)};
   }
-  [[nodiscard]] NumBox unscaled(const NumBox& b) const { return {divide(b.lower), divide(b.upper)}; }
+  [[nodiscard]] NumBox unscaled(const NumBox& b) const {
+    return {divide(b.lower), divide(b.upper)};
+  }
   [[nodiscard]] std::uint32_t edge_id(std::uint32_t t, std::uint32_t k) const;
 
   const MeshData& mesh_;

@@ -1,5 +1,5 @@
-// Boxes and hulls against triangles: the axis of greatest separation among those that the cones of the
-// triangle hold, and the faces laid over one another along it.
+// Boxes and hulls against triangles: the axis of greatest separation among those that the cones of
+// the triangle hold, and the faces laid over one another along it.
 #include "collision/gjk.h"
 #include "collision/segment.h"
 #include "collision/surface/surface_contact.h"
@@ -39,9 +39,10 @@ class Touch {
     const bool apart = best > Num(0);
     const Num enough = best - kFacePreference * on_.thickness;
     const Num limit = best + (apart ? kAttained : kFacePreference) * on_.thickness;
-    // Deep below the plane and nearly out at the side: this is a shape beside the surface, not on it.
-    const bool beside = own.separation < -kDeepShare * on_.thickness &&
-                        nearest_exit_ > kExitShare * own.separation;
+    // Deep below the plane and nearly out at the side: this is a shape beside the surface, not on
+    // it.
+    const bool beside =
+        own.separation < -kDeepShare * on_.thickness && nearest_exit_ > kExitShare * own.separation;
     const bool own_wins = own.separation >= enough && !beside;
     if (own_wins && over_triangle(limit)) return true;
     if (faces.separation >= enough && over_face(faces, limit)) return true;
@@ -137,8 +138,8 @@ class Touch {
     p_.face(face, other);
     if (dot(other.normal, -n) < kSteepFace) return false;
     out_.candidates.count = 0;
-    const Num smallest = overlay_faces(other, polygon_, -n, separation,
-                                       kClipBand * on_.thickness, on_.margin, out_.candidates);
+    const Num smallest = overlay_faces(other, polygon_, -n, separation, kClipBand * on_.thickness,
+                                       on_.margin, out_.candidates);
     if (!(smallest <= limit) || out_.candidates.count == 0) return false;
     for (int i = 0; i < out_.candidates.count; ++i)
       out_.candidates.points[i].feature = swapped_name(out_.candidates.points[i].feature);
@@ -203,7 +204,8 @@ class Touch {
   const SurfaceTriangle& t_;
   TriangleContact& out_;
   FacePolygon polygon_;
-  Num nearest_exit_ = kNone;  // [m] largest separation along a face of the polyhedron, allowed or not
+  Num nearest_exit_ =
+      kNone;  // [m] largest separation along a face of the polyhedron, allowed or not
 };
 
 }  // namespace

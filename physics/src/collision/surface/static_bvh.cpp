@@ -82,8 +82,8 @@ struct StaticBvh::Builder {
       high = max_each(high, doubled_middle(boxes[order[i]]));
     }
     const NumVec spread = high - low;
-    const int axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2)
-                                          : (spread.y >= spread.z ? 1 : 2);
+    const int axis =
+        spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
     const Num from = component(low, axis), width = component(spread, axis);
     if (!(width > Num(0)) || depth > kFreeDepth) return cut_in_the_middle(begin, end, axis);
     const auto bin_of = [&](std::uint32_t item) {
@@ -169,7 +169,8 @@ std::vector<std::uint32_t> StaticBvh::build(std::span<const NumBox> boxes) {
   const NumVec size = bounds_.upper - bounds_.lower;
   const Num largest = std::max({size.x, size.y, size.z, length(bounds_.lower), kSmallestSize});
   const auto step = [&](Num extent) {
-    return (std::max(extent, kNumEpsilon * 16 * largest) * (Num(1) + kRounding)) / (kSteps - Num(1));
+    return (std::max(extent, kNumEpsilon * 16 * largest) * (Num(1) + kRounding)) /
+           (kSteps - Num(1));
   };
   step_ = {step(size.x), step(size.y), step(size.z)};
   builder.add_node(0, static_cast<std::uint32_t>(boxes.size()), 0);

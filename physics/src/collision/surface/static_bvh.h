@@ -1,9 +1,10 @@
-// A tree of boxes that is built once and never changes: 16 bytes a node, leaves of up to four items.
+// A tree of boxes that is built once and never changes: 16 bytes a node, leaves of up to four
+// items.
 //
 // Node boxes are rounded outwards to 16 bits an axis over the bounds of the whole: a box is at most
 // 1/65535 of that too large on each side, which costs a visit now and then and never an answer.
-// Nodes stand in depth-first order: the first child of a node is the next one. Items are the caller's,
-// put into the order of the leaves by build().
+// Nodes stand in depth-first order: the first child of a node is the next one. Items are the
+// caller's, put into the order of the leaves by build().
 #pragma once
 
 #include <array>
@@ -54,12 +55,12 @@ class StaticBvh {
   // Calls visit(place) for every item in a leaf whose box overlaps `box`, in ascending order.
   template <class Visit>
   void query(const NumBox& box, Visit&& visit) const;
-  // Calls visit(place, max_fraction) -> new max fraction for items in leaves that the segment meets,
-  // near leaves first.
+  // Calls visit(place, max_fraction) -> new max fraction for items in leaves that the segment
+  // meets, near leaves first.
   template <class Visit>
   void cast(const SegmentQuery& ray, Num max_fraction, Visit&& visit) const;
-  // Calls visit(place, largest) -> new largest squared distance for items in leaves not farther than
-  // that from the box, near leaves first. bound(node box) [m^2] is a lower bound of an item's
+  // Calls visit(place, largest) -> new largest squared distance for items in leaves not farther
+  // than that from the box, near leaves first. bound(node box) [m^2] is a lower bound of an item's
   // distance.
   template <class Bound, class Visit>
   void nearest(const Bound& bound, Num largest, Visit&& visit) const;

@@ -27,8 +27,8 @@ struct TriangleContact {
   ContactCandidates candidates;
 };
 
-// Contact along the triangle's own normal, or along that of an edge or a corner if its cone holds it.
-// False where there is none.
+// Contact along the triangle's own normal, or along that of an edge or a corner if its cone holds
+// it. False where there is none.
 bool touch_sphere(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out);
 bool touch_capsule(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out);
 bool touch_polyhedron(const ConvexOnSurface& on, const PlacedPolyhedron& polyhedron,

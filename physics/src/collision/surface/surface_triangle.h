@@ -3,10 +3,10 @@
 // Which contact normals are real: at a point of a surface a body can only be touched along a
 // direction n from which the whole neighbourhood of the point lies downhill (n . (x - p) <= 0), the
 // polar of the tangent cone. Inside a triangle that is the triangle's normal; on an edge the arc
-// between the normals of its two triangles, if the edge is a ridge, and nothing but the common normal
-// if it is flat; at a corner what all edges that meet there leave over. A direction outside of this
-// cone belongs to a closer place on a neighbour, which then gives the contact. Contacts kept to these
-// cones are the same whatever the triangles a plane is cut into: no ghost collisions.
+// between the normals of its two triangles, if the edge is a ridge, and nothing but the common
+// normal if it is flat; at a corner what all edges that meet there leave over. A direction outside
+// of this cone belongs to a closer place on a neighbour, which then gives the contact. Contacts
+// kept to these cones are the same whatever the triangles a plane is cut into: no ghost collisions.
 #pragma once
 
 #include <cmath>
@@ -52,13 +52,13 @@ ClosestOnTriangle closest_on_triangle(const SurfaceTriangle& t, NumVec p);
 // largest angle loses least.
 NumVec doubled_area(NumVec a, NumVec b, NumVec c);
 
-// How two triangles meet over the edge from v0 to v1: normal and far corner of each. `noise` [m]: how
-// far a corner may be off by rounding.
+// How two triangles meet over the edge from v0 to v1: normal and far corner of each. `noise` [m]:
+// how far a corner may be off by rounding.
 EdgeKind kind_of_edge(NumVec v0, NumVec v1, NumVec normal_a, NumVec far_a, NumVec normal_b,
                       NumVec far_b, Num noise);
 
-// Whether an edge's cone holds a unit vector. Only for edges; snapping to the normal of the triangle
-// is the caller's.
+// Whether an edge's cone holds a unit vector. Only for edges; snapping to the normal of the
+// triangle is the caller's.
 bool edge_allows(const SurfaceTriangle& t, int k, NumVec n);
 
 // What a surface tells of the triangles around a corner.
