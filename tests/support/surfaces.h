@@ -91,8 +91,8 @@ inline Soup ball_soup(double radius, int rings) {
   for (int r = 0; r <= rings; ++r) {
     for (int k = 0; k < around; ++k) {
       const double t = testing_support::kPi * r / rings, f = 2 * testing_support::kPi * k / around;
-      s.add({radius * std::sin(t) * std::cos(f), radius * std::cos(t),
-             radius * std::sin(t) * std::sin(f)});
+      const double wide = r == 0 || r == rings ? 0 : radius * std::sin(t);  // one point at a pole
+      s.add({wide * std::cos(f), radius * std::cos(t), wide * std::sin(f)});
     }
   }
   const auto at = [&](int r, int k) { return static_cast<std::uint32_t>(r * around + k % around); };

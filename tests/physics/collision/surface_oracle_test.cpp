@@ -236,7 +236,8 @@ TEST(SurfaceOracle, TheNearestContactIsAsFarAsEveryFeatureSays) {
   EXPECT_GT(near, 700);
 }
 
-// Normals: at the point of the surface under each contact all of its triangles go downhill.
+// At the point of the surface under each contact all of its triangles go downhill along the normal, or
+// the normal is that of one of them.
 TEST(SurfaceOracle, EveryNormalLiesInTheConeOfItsPlace) {
   Random random(23);
   for (int trial = 0; trial < 3000; ++trial) {
@@ -260,13 +261,14 @@ TEST(SurfaceOracle, EveryNormalLiesInTheConeOfItsPlace) {
       for (int i = 0; i < part.manifold.count && !some; ++i) {
         const ManifoldPoint& point = part.manifold.points[i];
         const V p = oracle::vec(point.position) - 0.5 * static_cast<double>(point.separation) * n;
-        bool holds = true;
+        bool holds = true, is_facet = false;
         for (const Triangle& t : ground.triangles) {
           if (point_triangle(p, t) > 2e-3 * half) continue;
+          is_facet = is_facet || (n - t.normal).norm() <= 1e-3;
           for (const V& corner : t.corner)
             holds = holds && n.dot(corner - p) <= 1e-3 * (corner - p).norm() + 4e-3 * half;
         }
-        some = holds;
+        some = holds || is_facet;
       }
       EXPECT_TRUE(some) << "trial " << trial << " kind " << trial % 4 << " part " << part.part
                         << " n " << n.transpose();
@@ -281,7 +283,7 @@ TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
       make_collision_shape(TriangleMesh{surfaces::made(surfaces::box_soup(2, 1, 1.5))});
   const CollisionShape box = make_collision_shape(Box{Vec3(2, 1, Real(1.5))});
   int touched = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < 8000; ++trial) {
     const CollisionShape shape = random_convex(random, trial % 4, 0.6);
     const Transform fixed{{0, 0, 0}, random.rotation()};
     const V at = random.uniform(1, 3) * random.direction();
@@ -293,7 +295,7 @@ TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
     const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
     PartManifolds all;
     const bool hit = collide_parts(mesh, fixed, shape, placed, Real(0), all);
-    if (truth > 1e-4) EXPECT_FALSE(hit);
+    if (truth > 1e-4) EXPECT_FALSE(hit) << "trial " << trial << " kind " << trial % 4 << " truth " << truth << " deep " << deepest_of(all) << " " << all.parts.size();
     // Deep capsules and edges among themselves have other ways out: a fifth of the half thickness.
     if (truth > -2e-3 * half || truth < -0.2 * half) continue;
     ++touched;
@@ -351,7 +353,10 @@ TEST(SurfaceOracle, APlaneOfTrianglesIsAHalfSpace) {
         deepest = std::min(deepest, static_cast<double>(m.points[i].separation));
       for (int i = 0; i < truth.count; ++i)
         deepest_truth = std::min(deepest_truth, static_cast<double>(truth.points[i].separation));
-      EXPECT_NEAR(deepest, deepest_truth, 64 * kEpsilon) << "trial " << trial << " cut " << c;
+      // Points of two triangles that coincide to a thousandth of the half thickness are one, as
+      // deep as the deeper of them to a millionth.
+      EXPECT_NEAR(deepest, deepest_truth, 1e-6 * 0.5 + 64 * kEpsilon)
+          << "trial " << trial << " cut " << c;
       // The same support: each point of one has one of the other at its side.
       if (trial % 4 == 2 && truth.count == m.count) {
         for (int i = 0; i < m.count; ++i) {

@@ -30,15 +30,16 @@ bool is_coplanar(const Group& group, const TriangleContact& contact, Num toleran
 // Twice the signed area of a triangle seen along the normal.
 Num turn(NumVec a, NumVec b, NumVec c, NumVec normal) { return dot(cross(b - a, c - a), normal); }
 
-// Of points nearer to one another than `same`, the deepest stays (the first of equals).
-void drop_doubles(std::vector<ContactPoint>& points, Num same) {
+// Of points nearer to one another than `same`, the deepest stays; the first of those as deep to
+// `level`.
+void drop_doubles(std::vector<ContactPoint>& points, Num same, Num level) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     bool is_new = true;
     for (std::size_t k = 0; k < kept && is_new; ++k) {
       if (length_squared(points[i].position - points[k].position) > same * same) continue;
       is_new = false;
-      if (points[i].separation < points[k].separation - same) points[k] = points[i];
+      if (points[i].separation < points[k].separation - level) points[k] = points[i];
     }
     if (is_new) points[kept++] = points[i];
   }
@@ -82,7 +83,7 @@ void keep_hull(std::vector<ContactPoint>& points, NumVec normal, Num tolerance) 
 }
 
 void prune(Group& group, Num thickness) {
-  drop_doubles(group.points, kSamePoint * thickness);
+  drop_doubles(group.points, kSamePoint * thickness, kAttained * thickness);
   keep_hull(group.points, group.normal, kOnHullLine * thickness);
 }
 

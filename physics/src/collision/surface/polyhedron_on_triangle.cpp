@@ -35,6 +35,7 @@ class Touch {
     Axis faces, edges;
     if (!best_face(faces)) return false;
     if (t_.has_sharp_edge()) best_edge(edges);
+    if (!(edges.separation <= on_.margin)) return false;
     const Num best = std::max(own.separation, std::max(faces.separation, edges.separation));
     const bool apart = best > Num(0);
     const Num enough = best - kFacePreference * on_.thickness;
