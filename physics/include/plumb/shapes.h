@@ -7,8 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include "plumb/heightfield.h"
 #include "plumb/math.h"
 #include "plumb/status.h"
+#include "plumb/triangle_mesh.h"
 
 namespace plumb::inline PLUMB_ABI {
 
@@ -50,6 +52,8 @@ class HullGeometry {
   };
   static Result create(std::span<const Vec3> vertices, std::span<const std::uint32_t> face_sizes,
                        std::span<const std::uint32_t> face_vertices);
+  // The same hull stretched along its axes by factors > 0 [-].
+  [[nodiscard]] Result scaled(const Vec3& factors) const;
 
   [[nodiscard]] const std::vector<Vec3>& vertices() const { return vertices_; }
   [[nodiscard]] std::size_t face_count() const { return face_normals_.size(); }
@@ -88,6 +92,24 @@ struct ConvexHull {
   std::shared_ptr<const HullGeometry> geometry;
 };
 
-using Shape = std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace>;
+// A surface, not a solid: what is behind it is not pushed out but near the surface. Only for static
+// and kinematic bodies.
+struct TriangleMesh {
+  std::shared_ptr<const TriangleMeshGeometry> geometry;
+  Vec3 scale = Vec3::Ones();  // [-] > 0 each, along the mesh's own axes
+};
+
+struct Heightfield {
+  std::shared_ptr<const HeightfieldGeometry> geometry;
+};
+
+// Several convex shapes as one (plumb/compound.h).
+class CompoundGeometry;
+struct Compound {
+  std::shared_ptr<const CompoundGeometry> geometry;
+};
+
+using Shape =
+    std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, TriangleMesh, Heightfield, Compound>;
 
 }  // namespace plumb::inline PLUMB_ABI

@@ -1,6 +1,7 @@
 // Rays against single shapes, in the shape's frame and in double precision. The boundary belongs to
 // the shape: a ray that starts on it starts inside.
 #include "collision/collide.h"
+#include "collision/collide_parts.h"
 #include "collision/contact_points.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -119,6 +120,9 @@ Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
     case ShapeType::Hull:
       return cast_hull(ray, *shape.hull);
     case ShapeType::HalfSpace:
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
+    case ShapeType::Compound:
       break;
   }
   return cast_half_space(ray, normalized_or(to_num(shape.normal), NumVec{0, 1, 0}),
@@ -129,6 +133,8 @@ Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
 
 bool cast_ray(const CollisionShape& shape, const Transform& placement, Vec origin, Vec direction,
               Real max_fraction, RayHit& hit) {
+  if (has_parts(shape.type))
+    return cast_ray_parts(shape, placement, origin, direction, max_fraction, hit);
   const NumRotation q =
       normalized(NumRotation{placement.q.x, placement.q.y, placement.q.z, placement.q.w});
   const NumRotation to_shape = conjugate(q);

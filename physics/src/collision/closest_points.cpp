@@ -1,5 +1,6 @@
 // Distance of two shapes: GJK between the cores, minus the radii.
 #include "collision/collide.h"
+#include "collision/collide_parts.h"
 #include "collision/contact_points.h"
 #include "collision/gjk.h"
 
@@ -100,6 +101,7 @@ Proximity touching(const CollisionShape& a, const Transform& xa, const Collision
 
 Proximity closest_points(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
                          const Transform& xb) {
+  if (has_parts(a.type) || has_parts(b.type)) return closest_parts(a, xa, b, xb);
   const NumVec origin = to_num(xa.p);
   const PlacedCore core_a(a, xa, origin), core_b(b, xb, origin);
   const bool plane_a = a.type == ShapeType::HalfSpace, plane_b = b.type == ShapeType::HalfSpace;

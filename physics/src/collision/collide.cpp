@@ -3,6 +3,7 @@
 #include "collision/collide.h"
 
 #include "collision/collide_pairs.h"
+#include "collision/collide_parts.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -28,6 +29,10 @@ int rank(ShapeType type) {
       return 2;
     case ShapeType::HalfSpace:
       return 3;
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
+    case ShapeType::Compound:
+      break;  // never asked: collide_parts() takes them apart first
   }
   return 0;
 }
@@ -71,6 +76,8 @@ bool is_placed(NumVec p, NumRotation a, NumRotation b) {
 bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
              const Transform& xb, Real margin, Manifold& out) {
   out.count = 0;
+  if (has_parts(a.type) || has_parts(b.type))
+    return collide_deepest_part(a, xa, b, xb, margin, out);
   const bool swap = goes_second(a, xa, b, xb);
   const CollisionShape& first = swap ? b : a;
   const CollisionShape& second = swap ? a : b;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision/collision_tolerances.h"
+#include "collision/surface/composite_shape.h"
 #include "math/eigen_bridge.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -48,6 +49,9 @@ struct Check {
     }
     return {};
   }
+  Status operator()(const TriangleMesh& s) const { return check_mesh(s); }
+  Status operator()(const Heightfield& s) const { return check_heightfield(s); }
+  Status operator()(const Compound& s) const { return check_compound(s); }
 };
 
 struct Make {
@@ -84,6 +88,9 @@ struct Make {
     shape.offset = s.offset;
     return shape;
   }
+  CollisionShape operator()(const TriangleMesh& s) const { return make_mesh(s); }
+  CollisionShape operator()(const Heightfield& s) const { return make_heightfield(s); }
+  CollisionShape operator()(const Compound& s) const { return make_compound(s); }
 };
 
 // The end of a half-space along one axis, if its normal is that axis (to round-off).
@@ -112,6 +119,10 @@ Status check_shape(const Shape& shape) { return std::visit(Check{}, shape); }
 
 Aabb bounds_of(const CollisionShape& shape, const Transform& x) {
   switch (shape.type) {
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
+    case ShapeType::Compound:
+      return composite_bounds(shape, x);
     case ShapeType::HalfSpace:
       return half_space_bounds(shape, x);
     case ShapeType::Hull: {
@@ -139,6 +150,10 @@ Aabb bounds_of(const CollisionShape& shape, const Transform& x) {
 
 Real bounding_radius(const CollisionShape& shape) {
   switch (shape.type) {
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
+    case ShapeType::Compound:
+      return composite_radius(shape);
     case ShapeType::HalfSpace:
       return kUnbounded;
     case ShapeType::Hull: {
@@ -163,7 +178,11 @@ Real smallest_thickness(const CollisionShape& shape) {
       return Real(2) * std::min(shape.half.x, std::min(shape.half.y, shape.half.z));
     case ShapeType::Hull:
       return Real(2) * shape.hull->inner_radius();
+    case ShapeType::Compound:
+      return composite_thickness(shape);
     case ShapeType::HalfSpace:
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
       break;
   }
   return kUnbounded;
@@ -188,6 +207,10 @@ Vec support(const CollisionShape& shape, Vec d) {
       }
       return farthest;
     }
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
+    case ShapeType::Compound:
+      return composite_support(shape, d);
     case ShapeType::HalfSpace:
       break;
   }

@@ -9,17 +9,40 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-enum class ShapeType : std::uint8_t { Sphere, Capsule, Box, Hull, HalfSpace };
-inline constexpr int kShapeTypeCount = 5;
+enum class ShapeType : std::uint8_t {
+  Sphere,
+  Capsule,
+  Box,
+  Hull,
+  HalfSpace,
+  // Made of parts: pairs with these go through collide_parts().
+  Mesh,
+  Heightfield,
+  Compound
+};
+constexpr bool has_parts(ShapeType type) { return type >= ShapeType::Mesh; }
+// Surfaces have a front and no inside.
+constexpr bool is_surface(ShapeType type) {
+  return type == ShapeType::Mesh || type == ShapeType::Heightfield;
+}
+inline constexpr int kShapeTypeCount = 5;  // of one part
+
+struct MeshData;
+struct CompoundData;
 
 struct CollisionShape {
   ShapeType type = ShapeType::Sphere;
-  Real radius = 0;                     // [m] sphere, capsule; 0 for the others
-  Vec half{0, 0, 0};                   // [m] box: half extents; capsule: (0, half_length, 0)
-  Vec normal{0, 1, 0};                 // half-space: outward unit normal
-  Real offset = 0;                     // [m] half-space
-  const HullGeometry* hull = nullptr;  // hull; kept alive by `owner`
-  std::shared_ptr<const HullGeometry> owner;
+  Real radius = 0;      // [m] sphere, capsule; 0 for the others
+  Vec half{0, 0, 0};    // [m] box: half extents; capsule: (0, half_length, 0)
+  Vec normal{0, 1, 0};  // half-space: outward unit normal
+  Real offset = 0;      // [m] half-space
+  // Shared geometry, kept alive by `owner`.
+  const HullGeometry* hull = nullptr;
+  const MeshData* mesh = nullptr;
+  const HeightfieldGeometry* heightfield = nullptr;
+  const CompoundData* compound = nullptr;
+  Vec scale{1, 1, 1};  // mesh
+  std::shared_ptr<const void> owner;
 };
 
 // Precondition: the shape passed check_shape().

@@ -194,4 +194,20 @@ HullGeometry::Result HullGeometry::create(std::span<const Vec3> vertices,
   return {std::move(hull), {}};
 }
 
+HullGeometry::Result HullGeometry::scaled(const Vec3& factors) const {
+  if (!factors.allFinite())
+    return {nullptr, {StatusCode::NotFinite, "a hull's scale must be finite"}};
+  if (!(factors.minCoeff() > Real(0))) {
+    return {nullptr,
+            {StatusCode::OutOfRange,
+             "a hull's scale must be greater than zero on each axis: mirror the points instead"}};
+  }
+  std::vector<Vec3> points;
+  for (const Vec3& v : vertices_) points.push_back(v.cwiseProduct(factors));
+  std::vector<std::uint32_t> sizes;
+  for (std::size_t k = 0; k < face_count(); ++k)
+    sizes.push_back(static_cast<std::uint32_t>(face(k).size()));
+  return create(points, sizes, face_vertices_);
+}
+
 }  // namespace plumb::inline PLUMB_ABI

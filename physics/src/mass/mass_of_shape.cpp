@@ -13,6 +13,7 @@
 
 #include "collision/collision_shape.h"
 #include "mass/inertia_tensor.h"
+#include "plumb/compound.h"
 #include "plumb/mass_properties.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -58,6 +59,23 @@ MassProperties of_hull(const HullGeometry& hull, double density) {
   return body;
 }
 
+MassProperties of_shape(const Shape& shape, double density);
+
+// Each child about its own centre, then all of them together [Huygens 1673].
+MassProperties of_compound(const CompoundGeometry& compound, double density) {
+  MassProperties sum;
+  bool first = true;
+  for (const CompoundGeometry::Child& child : compound.children()) {
+    const MassProperties placed =
+        of_shape(child.shape, density)
+            .placed(child.pose.position.cast<double>(),
+                    Eigen::Quaterniond(child.pose.orientation.cast<double>()).normalized());
+    sum = first ? placed : sum.plus(placed);
+    first = false;
+  }
+  return sum;
+}
+
 MassProperties of_shape(const Shape& shape, double density) {
   constexpr double kPi = std::numbers::pi;
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
@@ -74,6 +92,9 @@ MassProperties of_shape(const Shape& shape, double density) {
     const double volume = kPi * r * r * (2 * half_length + 4.0 / 3 * r);
     return inertia_of::capsule(density * volume, r, half_length);
   }
+  if (const auto* compound = std::get_if<Compound>(&shape)) {
+    return of_compound(*compound->geometry, density);
+  }
   return of_hull(*std::get<ConvexHull>(shape).geometry, density);
 }
 
@@ -89,6 +110,11 @@ ShapeMass mass_of(const Shape& shape, double density) {
   if (const Status status = detail::check_shape(shape); !status.ok()) return {{}, status};
   if (std::holds_alternative<HalfSpace>(shape)) {
     return {{}, {StatusCode::BadShape, "a half-space has no finite mass; use it on static bodies"}};
+  }
+  if (std::holds_alternative<TriangleMesh>(shape) || std::holds_alternative<Heightfield>(shape)) {
+    return {{},
+            {StatusCode::BadShape,
+             "a mesh or heightfield is a surface and has no mass; give the body's mass itself"}};
   }
   const MassProperties properties = of_shape(shape, density);
   if (const Status status = check(properties); !status.ok()) return {{}, status};

@@ -177,8 +177,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   for (int i = 0; i < row.count; ++i)
     gap += contact.manifold.points[i].separation - contact.advanced_gap;
   const Vec half_gap = (Real(0.5) * gap / static_cast<Real>(row.count)) * row.n;
-  row.surface_a = world.colliders.info[pair.collider_a()].shape.radius;
-  row.surface_b = world.colliders.info[pair.collider_b()].shape.radius;
+  row.surface_a = contact.radius_a;
+  row.surface_b = contact.radius_b;
   row.core_a = row.arm_a - half_gap - row.surface_a * row.n;
   row.core_b = row.arm_b + half_gap + row.surface_b * row.n;
   if (!row.both_dynamic) {

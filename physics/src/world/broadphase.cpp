@@ -34,6 +34,12 @@ WorldAabb swept(const WorldAabb& box, PosVec path) {
   return {box.lower + min_each(path, zero), box.upper + max_each(path, zero)};
 }
 
+// The thickness that boxes are grown by. A surface leaves it to what it meets: margins follow the
+// thinner of two.
+Real skin_of(const ColliderInfo& collider) {
+  return is_surface(collider.shape.type) ? Real(0) : std::min(collider.thickness, kUnbounded);
+}
+
 struct Reach {
   WorldAabb box;  // all places of the collider in the next step, unless something hits the body
   PosVec path;    // [m] of its centre of mass in it
@@ -45,8 +51,7 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
   const BodyPose& pose = bodies.pose[body.dense];
   const Transform placed{rotate(pose.q, collider.in_body.p), pose.q * collider.in_body.q};
   const Aabb tight = bounds_of(collider.shape, placed);
-  const Real slops =
-      tolerance::kMarginSlops * tolerance::kSlopFraction * std::min(collider.thickness, kUnbounded);
+  const Real slops = tolerance::kMarginSlops * tolerance::kSlopFraction * skin_of(collider);
   Aabb box = tight;
   Vec path{0, 0, 0};
   Real around = slops;
@@ -115,7 +120,7 @@ void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
   if (!force && contains(tree.box(collider.proxy), reach)) return;
   WorldAabb fat = reach;
   if (!collider.is_static) {
-    const Real spare = tolerance::kFatBoxFraction * std::min(collider.thickness, kUnbounded);
+    const Real spare = tolerance::kFatBoxFraction * skin_of(collider);
     fat = grown(swept(fat, static_cast<PosReal>(tolerance::kFatBoxSteps) * path),
                 static_cast<PosReal>(spare));
   }

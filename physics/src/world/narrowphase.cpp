@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "collision/collide.h"
+#include "collision/collide_parts.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -67,18 +67,18 @@ Real reach_of(const WorldState& world, const Pair& pair) {
 }
 
 // Fast pairs: conservative advancement along the relative path of the step (without rotation) to
-// the first touch [Mirtich 1996], and the manifold there. Returns false when the pair is slow, or
-// when nothing meets; the ordinary manifold serves then.
-bool collide_swept(const WorldState& world, const Pair& pair, const ColliderInfo& a,
-                   const Transform& xa, const ColliderInfo& b, const Transform& xb, Real margin,
-                   Contact& contact) {
+// the first touch [Mirtich 1996]. Returns false when the pair is slow, or when nothing meets; the
+// ordinary manifold serves then. `advance` [m]: how far B is then along, seen from A.
+bool find_first_touch(const WorldState& world, const Pair& pair, const ColliderInfo& a,
+                      const Transform& xa, const ColliderInfo& b, const Transform& xb,
+                      Transform& moved, Vec& advance) {
   const BodyInfo& info_a = world.bodies.info[pair.body_a];
   const BodyInfo& info_b = world.bodies.info[pair.body_b];
   const Vec v = world.bodies.velocity[info_b.dense].v - world.bodies.velocity[info_a.dense].v;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Vec path = world.dt * v;
   if (length(path) <= tolerance::kSweptFraction * thickness) return false;
-  Transform moved = xb;
+  moved = xb;
   Real t = 0;
   Vec normal{0, 1, 0};
   bool meets = false;
@@ -95,16 +95,47 @@ bool collide_swept(const WorldState& world, const Pair& pair, const ColliderInfo
     if (t > Real(1)) return false;
     moved.p = xb.p + t * path;
   }
-  if (!meets || !(dot(normal, path) < Real(0))) return false;
-  if (!collide(a.shape, xa, b.shape, moved, margin, contact.manifold)) return false;
-  contact.advance = t * path;
-  contact.advanced_gap = -dot(contact.manifold.normal, contact.advance);
+  advance = t * path;
+  return meets && dot(normal, path) < Real(0);
+}
+
+// The manifold of the moment of first touch, told as of the step's start.
+void set_back(const Pair& pair, Vec advance, Contact& contact) {
+  contact.advance = advance;
+  contact.advanced_gap = -dot(contact.manifold.normal, advance);
   for (int i = 0; i < contact.manifold.count; ++i) {
     ManifoldPoint& point = contact.manifold.points[i];
     point.separation += contact.advanced_gap;
-    if (pair.relative_to_b) point.position -= contact.advance;
+    if (pair.relative_to_b) point.position -= advance;
   }
-  return true;
+}
+
+// Appends the contacts of a pair of shapes one of which has parts; each takes over from the same
+// part.
+void collide_pair_of_parts(const WorldState& world, std::uint32_t index, const Pair& pair,
+                           const ColliderInfo& a, const Transform& xa, const ColliderInfo& b,
+                           const Transform& xb, Real margin, std::vector<Contact>& out) {
+  static thread_local PartManifolds found;  // kept for its storage only
+  Transform moved = xb;
+  Vec advance{0, 0, 0};
+  const bool swept = find_first_touch(world, pair, a, xa, b, xb, moved, advance) &&
+                     collide_parts(a.shape, xa, b.shape, moved, margin, found);
+  if (!swept) collide_parts(a.shape, xa, b.shape, xb, margin, found);
+  const std::span<const Contact> before = contacts_of(pair, world.contacts);
+  auto old = before.begin();
+  for (const PartManifold& part : found.parts) {
+    Contact& contact = out.emplace_back();
+    contact.pair = index;
+    contact.part = part.part;
+    contact.manifold = part.manifold;
+    contact.radius_a = part.radius_a;
+    contact.radius_b = part.radius_b;
+    if (swept) set_back(pair, advance, contact);
+    while (old != before.end() && old->part < contact.part) ++old;
+    if (old == before.end() || old->part != contact.part) continue;
+    carry_impulses(contact, *old, pair.slop / tolerance::kSlopFraction);
+    contact.at_rest = old->at_rest;
+  }
 }
 
 // Appends the contacts of one pair to `out`. Reads the world, writes only there and to the pair's
@@ -134,10 +165,24 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
     return;
   }
   const Real margin = tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
+  if (has_parts(a.shape.type) || has_parts(b.shape.type)) {
+    collide_pair_of_parts(world, static_cast<std::uint32_t>(index), pair, a, xa, b, xb, margin,
+                          out);
+    found.count = static_cast<std::uint32_t>(out.size()) - found.first;
+    return;
+  }
   Contact& contact = out.emplace_back();
   contact.pair = static_cast<std::uint32_t>(index);
-  if (!collide_swept(world, pair, a, xa, b, xb, margin, contact))
+  contact.radius_a = a.shape.radius;
+  contact.radius_b = b.shape.radius;
+  Transform moved = xb;
+  Vec advance{0, 0, 0};
+  if (find_first_touch(world, pair, a, xa, b, xb, moved, advance) &&
+      collide(a.shape, xa, b.shape, moved, margin, contact.manifold)) {
+    set_back(pair, advance, contact);
+  } else {
     collide(a.shape, xa, b.shape, xb, margin, contact.manifold);
+  }
   if (contact.manifold.count == 0) {
     out.pop_back();
     return;

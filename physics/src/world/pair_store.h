@@ -39,8 +39,9 @@ struct Contact {
   // A swept pair's manifold is that of the moment of first touch: B is then this much farther
   // along, seen from A [m], and the separations are those of the step's start again.
   Vec advance{0, 0, 0};
-  Real advanced_gap = 0;  // [m] what that added to the separations
-  Manifold manifold;      // positions from that body's centre of mass, world axes
+  Real advanced_gap = 0;            // [m] what that added to the separations
+  Manifold manifold;                // positions from that body's centre of mass, world axes
+  Real radius_a = 0, radius_b = 0;  // [m] of the rounded shapes that touch; 0 for the others
   Real normal_impulse[Manifold::kMaxPoints]{};       // [N s] of the last substep: the warm start
   Vec friction_impulse[Manifold::kMaxPoints]{};      // [N s] on B, world axes
   Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step

@@ -10,6 +10,7 @@
 #include "collision/collide.h"
 #include "math/eigen_bridge.h"
 #include "world/inputs.h"
+#include "world/snapshot_geometry.h"
 #include "world/snapshot_table.h"
 #include "world/world_state.h"
 
@@ -166,8 +167,8 @@ bool restore_hulls(const Snapshot& in, std::vector<std::shared_ptr<const HullGeo
   return at == numbers->reals.size();
 }
 
-ShapeNumbers numbers_of(const Shape& shape,
-                        std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
+ShapeNumbers numbers_of(const Shape& shape, std::vector<std::shared_ptr<const HullGeometry>>& hulls,
+                        GeometryTable& geometries) {
   ShapeNumbers s;
   s.type = static_cast<std::uint32_t>(shape.index());
   const auto set = [&](double a, double b = 0, double c = 0, double d = 0) {
@@ -188,12 +189,15 @@ ShapeNumbers numbers_of(const Shape& shape,
   } else if (const auto* space = std::get_if<HalfSpace>(&shape)) {
     const Eigen::Vector3d n = space->normal.cast<double>();
     set(n.x(), n.y(), n.z(), static_cast<double>(space->offset));
+  } else {
+    s.hull = geometries.add(shape, s.n);
   }
   return s;
 }
 
 bool shape_from(const ShapeNumbers& s,
-                const std::vector<std::shared_ptr<const HullGeometry>>& hulls, Shape& out) {
+                const std::vector<std::shared_ptr<const HullGeometry>>& hulls,
+                const GeometryTable& geometries, Shape& out) {
   const auto real = [&](int i) { return static_cast<Real>(s.n[i]); };
   switch (s.type) {
     case 0:
@@ -213,7 +217,7 @@ bool shape_from(const ShapeNumbers& s,
       out = HalfSpace{Vec3(real(0), real(1), real(2)), real(3)};
       return true;
     default:
-      return false;
+      return geometries.take(s.hull, s.type, s.n, out);
   }
 }
 
@@ -270,7 +274,8 @@ bool restore_bodies(const Snapshot& in, WorldState& world) {
 
 bool restore_colliders(const Snapshot& in, WorldState& world) {
   std::vector<std::shared_ptr<const HullGeometry>> hulls;
-  if (!restore_hulls(in, hulls)) return false;
+  GeometryTable geometries;
+  if (!restore_hulls(in, hulls) || !geometries.restore(in)) return false;
   TableReader table(in, "collider");
   for (std::size_t slot = 0; slot < table.rows(); ++slot) {
     ColliderInfo info;
@@ -282,7 +287,7 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
     if (info.alive) {
       if (info.body >= world.bodies.info.size() || !world.bodies.info[info.body].alive)
         return false;
-      if (!shape_from(shape, hulls, info.component.shape) ||
+      if (!shape_from(shape, hulls, geometries, info.component.shape) ||
           !check_shape(info.component.shape).ok())
         return false;
       info.shape = make_collision_shape(info.component.shape);
@@ -444,10 +449,11 @@ void PhysicsWorld::save(Snapshot& snapshot) const {
   }
   add_list(out, "body_free", "slot", world.bodies.free_slots);
   std::vector<std::shared_ptr<const HullGeometry>> hulls;
+  GeometryTable geometries;
   {
     TableWriter table(out, "collider", world.colliders.info.size());
     for (ColliderInfo& info : world.colliders.info) {
-      ShapeNumbers shape = numbers_of(info.component.shape, hulls);
+      ShapeNumbers shape = numbers_of(info.component.shape, hulls, geometries);
       const AabbTree& tree = info.is_static ? world.static_tree : world.moving_tree;
       WorldAabb box = info.alive ? tree.box(info.proxy) : WorldAabb{};
       table.next_row();
@@ -455,6 +461,7 @@ void PhysicsWorld::save(Snapshot& snapshot) const {
     }
   }
   save_hulls(out, hulls);
+  geometries.save(out);
   std::vector<std::uint32_t> order;
   for (const BodyInfo& info : world.bodies.info)
     order.insert(order.end(), info.colliders.begin(), info.colliders.end());

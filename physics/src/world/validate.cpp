@@ -42,6 +42,12 @@ Status check_collider(const Collider& collider, MotionType type) {
   if (std::holds_alternative<HalfSpace>(collider.shape) && type != MotionType::Static)
     return {StatusCode::BadShape,
             "a half-space has no end and no mass: only static bodies may have one"};
+  if ((std::holds_alternative<TriangleMesh>(collider.shape) ||
+       std::holds_alternative<Heightfield>(collider.shape)) &&
+      type == MotionType::Dynamic)
+    return {StatusCode::BadShape,
+            "a mesh or heightfield is a surface without inside: for a dynamic body use its convex "
+            "hull, or cut it into convex parts and make them a Compound"};
   return {};
 }
 

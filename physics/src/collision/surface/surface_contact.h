@@ -1,0 +1,54 @@
+// Contacts of one convex shape with the triangles of a surface, in the surface's frame.
+#pragma once
+
+#include "collision/part_manifolds.h"
+#include "collision/placed_polyhedron.h"
+#include "collision/surface/surface_triangle.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+// The convex shape, placed in the surface's frame.
+struct ConvexOnSurface {
+  const CollisionShape& shape;
+  NumVec p;  // [m]
+  NumRotation q;
+  NumMatrix R;
+  Num margin;     // [m]
+  Num thickness;  // [m] half of the smallest
+  NumVec middle;  // [m]
+  const CornerCones& cones;
+};
+
+// What one triangle gives.
+struct TriangleContact {
+  NumVec normal;          // unit, from the surface to the shape
+  bool of_face;           // the normal is the triangle's
+  std::uint32_t feature;  // names the edge or corner when it is not
+  ContactCandidates candidates;
+};
+
+// Contact along the triangle's own normal, or along that of an edge or a corner if its cone holds
+// it. False where there is none.
+bool touch_sphere(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out);
+bool touch_capsule(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out);
+bool touch_polyhedron(const ConvexOnSurface& on, const PlacedPolyhedron& polyhedron,
+                      const SurfaceTriangle& t, TriangleContact& out);
+
+// Names of edge and corner contacts, apart from those of faces (see part_of_plane).
+inline constexpr std::uint32_t kFeaturePart = 1U << 31;
+std::uint32_t feature_part(const SurfaceTriangle& t, SurfaceFeature feature);
+// The same for all coplanar triangles.
+std::uint32_t plane_part(NumVec normal, NumVec point, Num cell);
+
+// Snaps a direction to the triangle's normal where it is that one to kSnapAngle; else says whether
+// the feature's cone holds it.
+bool allow_normal(const ConvexOnSurface& on, const SurfaceTriangle& t, SurfaceFeature feature,
+                  NumVec& n, bool& of_face);
+// The triangle as a face for clipping.
+void polygon_of(const SurfaceTriangle& t, FacePolygon& out);
+
+// Adds a triangle's contact to the group of its plane.
+void gather(PartManifolds& all, const ConvexOnSurface& on, const SurfaceTriangle& t,
+            const TriangleContact& contact);
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,73 @@
+#include "world/snapshot_geometry.h"
+
+#include "plumb/compound.h"
+#include "world/inputs.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+const void* geometry_of(const Shape& shape) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return mesh->geometry.get();
+  if (const auto* field = std::get_if<Heightfield>(&shape)) return field->geometry.get();
+  if (const auto* compound = std::get_if<Compound>(&shape)) return compound->geometry.get();
+  return nullptr;
+}
+
+}  // namespace
+
+std::uint32_t GeometryTable::add(const Shape& shape, double (&numbers)[4]) {
+  Shape carrier = shape;
+  if (auto* mesh = std::get_if<TriangleMesh>(&carrier)) {
+    for (int i = 0; i < 3; ++i) numbers[i] = static_cast<double>(mesh->scale[i]);
+    mesh->scale = Vec3::Ones();
+  }
+  std::uint32_t index = 0;
+  while (index < shapes_.size() && geometry_of(shapes_[index]) != geometry_of(shape)) ++index;
+  if (index == shapes_.size()) shapes_.push_back(std::move(carrier));
+  return index;
+}
+
+void GeometryTable::save(Snapshot& out) const {
+  SnapshotColumn sizes, numbers;
+  sizes.name = "geometry.size";
+  sizes.type = SnapshotColumn::Type::Uint64;
+  numbers.name = "geometry.numbers";
+  for (const Shape& shape : shapes_) {
+    Collider carrier;
+    carrier.shape = shape;
+    std::vector<double> written;
+    append(written, carrier);
+    sizes.integers.push_back(written.size());
+    numbers.reals.insert(numbers.reals.end(), written.begin(), written.end());
+  }
+  out.columns.push_back(std::move(sizes));
+  out.columns.push_back(std::move(numbers));
+}
+
+bool GeometryTable::restore(const Snapshot& in) {
+  const SnapshotColumn* sizes = in.find("geometry.size");
+  const SnapshotColumn* numbers = in.find("geometry.numbers");
+  if (sizes == nullptr || numbers == nullptr) return false;
+  std::size_t at = 0;
+  for (const std::uint64_t size : sizes->integers) {
+    if (size > numbers->reals.size() - at) return false;
+    NumberReader reader(std::span(numbers->reals).subspan(at, size));
+    const Collider carrier = reader.collider();
+    if (!reader.complete() || geometry_of(carrier.shape) == nullptr) return false;
+    shapes_.push_back(carrier.shape);
+    at += size;
+  }
+  return at == numbers->reals.size();
+}
+
+bool GeometryTable::take(std::uint32_t index, std::uint32_t kind, const double (&numbers)[4],
+                         Shape& out) const {
+  if (index >= shapes_.size() || shapes_[index].index() != kind) return false;
+  out = shapes_[index];
+  if (auto* mesh = std::get_if<TriangleMesh>(&out)) {
+    for (int i = 0; i < 3; ++i) mesh->scale[i] = static_cast<Real>(numbers[i]);
+  }
+  return true;
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,375 @@
+// Invariant: against meshes and heightfields of any size and place, in random and degenerate poses,
+// the deepest contact of every convex shape is as far from the surface as trying every feature of
+// every triangle says; every normal is one along which the surface around the point lies downhill;
+// every point lies on the surface; a closed mesh is as deep as the solid it bounds; swapping the
+// shapes changes nothing but signs.
+#include <gtest/gtest.h>
+
+#include "collision/collide_parts.h"
+#include "support/collision_oracle.h"
+#include "support/surfaces.h"
+
+namespace plumb::inline PLUMB_ABI {
+namespace {
+
+using namespace detail;
+using oracle::Random;
+using oracle::V;
+using surfaces::Soup;
+
+constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
+
+struct Triangle {
+  V corner[3], normal;
+};
+
+// The triangles of a surface in place, in double.
+struct Ground {
+  CollisionShape shape;
+  Transform placed;
+  std::vector<Triangle> triangles;
+  double size = 1;
+};
+
+Triangle triangle_of(const V& a, const V& b, const V& c, const Transform& x) {
+  const Eigen::Matrix3d R = oracle::rotation_of(x).toRotationMatrix();
+  const V p = oracle::vec(x.p);
+  Triangle t{{R * a + p, R * b + p, R * c + p}, V::Zero()};
+  t.normal = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]).normalized();
+  return t;
+}
+
+Ground ground_of(const Shape& shape, const Transform& placed, double size) {
+  Ground g{make_collision_shape(shape), placed, {}, size};
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+    for (std::size_t t = 0; t < mesh->geometry->triangle_count(); ++t) {
+      const auto c = mesh->geometry->triangle(t);
+      const auto at = [&](std::size_t i) -> V {
+        return c[i].cast<double>().cwiseProduct(mesh->scale.cast<double>());
+      };
+      g.triangles.push_back(triangle_of(at(0), at(1), at(2), placed));
+    }
+  } else {
+    const HeightfieldGeometry& f = *std::get<Heightfield>(shape).geometry;
+    const auto at = [&](std::uint32_t i, std::uint32_t k) -> V {
+      return {i * static_cast<double>(f.spacing_x()), static_cast<double>(f.height(i, k)),
+              k * static_cast<double>(f.spacing_z())};
+    };
+    for (std::uint32_t k = 0; k + 1 < f.samples_z(); ++k) {
+      for (std::uint32_t i = 0; i + 1 < f.samples_x(); ++i) {
+        if (f.is_hole(i, k)) continue;
+        g.triangles.push_back(triangle_of(at(i, k), at(i, k + 1), at(i + 1, k + 1), placed));
+        g.triangles.push_back(triangle_of(at(i, k), at(i + 1, k + 1), at(i + 1, k), placed));
+      }
+    }
+  }
+  return g;
+}
+
+oracle::Solid solid_of_triangle(const Triangle& t) {
+  oracle::Solid s;
+  s.vertices = {t.corner[0], t.corner[1], t.corner[2]};
+  s.faces = {{0, 1, 2}};
+  s.normals = {t.normal};
+  s.edges = {{0, 1}, {1, 2}, {0, 2}};
+  return s;
+}
+
+double point_triangle(const V& p, const Triangle& t) {
+  const oracle::Solid s = solid_of_triangle(t);
+  double best = oracle::point_face(p, s, 0);
+  for (int k = 0; k < 3; ++k)
+    best = std::min(best, oracle::point_segment(p, t.corner[k], t.corner[(k + 1) % 3]));
+  return best;
+}
+
+// Whether an edge of either passes through the other: the cores of the shapes meet.
+bool passes_through(const V& a, const V& b, const Triangle& t) {
+  const double ha = t.normal.dot(a - t.corner[0]), hb = t.normal.dot(b - t.corner[0]);
+  if (ha * hb >= 0) return false;
+  const V p = a + ha / (ha - hb) * (b - a);
+  for (int k = 0; k < 3; ++k)
+    if ((t.corner[(k + 1) % 3] - t.corner[k]).cross(p - t.corner[k]).dot(t.normal) < 0)
+      return false;
+  return true;
+}
+
+// Distance of a convex shape's surface from all triangles; 0 or less where they meet.
+double distance_from(const Ground& g, const oracle::Solid& s) {
+  double best = 1e300;
+  for (const Triangle& t : g.triangles) {
+    for (const auto& [a, b] : s.edges)
+      if (passes_through(s.vertices[static_cast<std::size_t>(a)],
+                         s.vertices[static_cast<std::size_t>(b)], t))
+        return -s.radius;
+    best = std::min(best, oracle::feature_distance(s, solid_of_triangle(t)));
+  }
+  return best - s.radius;
+}
+
+CollisionShape random_convex(Random& random, int kind, double size) {
+  const auto side = [&] { return static_cast<Real>(size * random.uniform(0.3, 1)); };
+  switch (kind) {
+    case 0:
+      return make_collision_shape(Sphere{side()});
+    case 1:
+      return make_collision_shape(Capsule{side(), side()});
+    case 2:
+      return make_collision_shape(Box{Vec3(side(), side(), side())});
+    default:
+      return make_collision_shape(
+          ConvexHull{oracle::random_hull(random, 6 + random.below(6), size)});
+  }
+}
+
+double bump(double x, double z) { return 0.35 * std::sin(1.3 * x) * std::cos(0.9 * z); }
+
+// Bumps, a tiled plane, slivers, a ball and a box, each at a size and a place.
+Ground random_ground(Random& random, double size) {
+  const int kind = random.below(6);
+  const Transform placed{{static_cast<Real>(size * random.uniform(-1, 1)), 0, 0},
+                         random.below(3) == 0 ? Rotation{0, 0, 0, 1} : random.rotation()};
+  const auto sized = [&](Soup soup) {
+    for (Vec3& v : soup.vertices) v *= static_cast<Real>(size);
+    return Shape{TriangleMesh{surfaces::made(soup)}};
+  };
+  switch (kind) {
+    case 0:
+      return ground_of(sized(surfaces::grid(-3, 3, -3, 3, 8, 8, bump, true)), placed, size);
+    case 1:
+      return ground_of(sized(surfaces::grid(-3, 3, -3, 3, 5, 9, surfaces::level)), placed, size);
+    case 2:
+      return ground_of(sized(surfaces::grid(-3, 3, -3, 3, 60, 1, bump)), placed, size);
+    case 3:
+      return ground_of(sized(surfaces::ball_soup(2, 7)), placed, size);
+    case 4: {
+      TriangleMesh mesh{surfaces::made(surfaces::box_soup(2, 1, 1.5)),
+                        Vec3(1, Real(1.5), 1) * static_cast<Real>(size)};
+      return ground_of(mesh, placed, size);
+    }
+    default:
+      return ground_of(Heightfield{surfaces::field(8, 9, 0.8 * size,
+                                                   [&](int i, int k) {
+                                                     if (i == 3 && k == 4) return std::nan("");
+                                                     return size * bump(i, k);
+                                                   })},
+                       placed, size);
+  }
+}
+
+double deepest_of(const PartManifolds& all) {
+  double deepest = 1e300;
+  for (const PartManifold& part : all.parts)
+    for (int i = 0; i < part.manifold.count; ++i)
+      deepest = std::min(deepest, static_cast<double>(part.manifold.points[i].separation));
+  return deepest;
+}
+
+TEST(SurfaceOracle, TheNearestContactIsAsFarAsEveryFeatureSays) {
+  Random random(17);
+  int near = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const double size = random.below(3) == 0 ? random.scale(1e-3, 1e4) : 1.0;
+    const Ground ground = random_ground(random, size);
+    const CollisionShape shape = random_convex(random, trial % 4, 0.6 * size);
+    const double reach = static_cast<double>(bounding_radius(shape));
+    // Above a random place of the surface, in front of it.
+    const Triangle& under = ground.triangles[static_cast<std::size_t>(
+        random.below(static_cast<int>(ground.triangles.size())))];
+    const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
+    const V on = under.corner[0] + u * (under.corner[1] - under.corner[0]) +
+                 v * (under.corner[2] - under.corner[0]);
+    const V at = on + random.uniform(0.3, 1.3) * reach * under.normal;
+    const Transform placed{
+        {static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
+        random.below(3) == 0 ? ground.placed.q : random.rotation()};
+    const oracle::Solid solid = oracle::solid_of(shape, placed);
+    const double distance = distance_from(ground, solid);
+    if (!(distance > 0)) continue;
+    bool in_front = true;  // of each triangle that is as near: else the surface shows its back
+    for (const Triangle& t : ground.triangles) {
+      const double d = oracle::feature_distance(solid, solid_of_triangle(t)) - solid.radius;
+      if (d < distance + 1e-6 * size && t.normal.dot(at - t.corner[0]) <= 1e-3 * size)
+        in_front = false;
+    }
+    if (!in_front) continue;
+    const double margin = 0.2 * size;
+    PartManifolds all;
+    const bool hit =
+        collide_parts(ground.shape, ground.placed, shape, placed, static_cast<Real>(margin), all);
+    const double rounding = 64 * kEpsilon * 8 * size;
+    if (distance > margin + rounding) {
+      EXPECT_FALSE(hit) << "trial " << trial << " distance " << distance / size;
+      continue;
+    }
+    if (distance > margin - rounding) continue;
+    ++near;
+    ASSERT_TRUE(hit) << "trial " << trial << " distance " << distance / size << " kind "
+                     << trial % 4;
+    // Coplanar triangles share a normal: 2e-4 over the reach of the shape, and a preference of
+    // 1e-3 of the half thickness for faces.
+    const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
+    EXPECT_NEAR(deepest_of(all), distance, 1.2e-3 * half + 4e-4 * reach + rounding)
+        << "trial " << trial << " kind " << trial % 4 << " size " << size;
+    for (const PartManifold& part : all.parts) {
+      const V n = oracle::vec(part.manifold.normal);
+      EXPECT_NEAR(n.norm(), 1, 8 * kEpsilon);
+      for (int i = 0; i < part.manifold.count; ++i) {
+        const ManifoldPoint& point = part.manifold.points[i];
+        const double s = static_cast<double>(point.separation);
+        const V below = oracle::vec(point.position) - 0.5 * s * n;
+        double off = 1e300;
+        for (const Triangle& t : ground.triangles) off = std::min(off, point_triangle(below, t));
+        EXPECT_LE(off, 2e-3 * half + rounding) << "trial " << trial << " kind " << trial % 4;
+      }
+    }
+    PartManifolds back;
+    ASSERT_TRUE(
+        collide_parts(shape, placed, ground.shape, ground.placed, static_cast<Real>(margin), back));
+    ASSERT_EQ(back.parts.size(), all.parts.size());
+    for (std::size_t k = 0; k < all.parts.size(); ++k) {
+      EXPECT_EQ(back.parts[k].part, all.parts[k].part);
+      EXPECT_EQ(length(back.parts[k].manifold.normal + all.parts[k].manifold.normal), Real(0));
+      EXPECT_TRUE(k == 0 || all.parts[k - 1].part < all.parts[k].part);
+    }
+  }
+  EXPECT_GT(near, 700);
+}
+
+// At the point of the surface under each contact all of its triangles go downhill along the normal, or
+// the normal is that of one of them.
+TEST(SurfaceOracle, EveryNormalLiesInTheConeOfItsPlace) {
+  Random random(23);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Ground ground = random_ground(random, 1);
+    const CollisionShape shape = random_convex(random, trial % 4, 0.6);
+    const Triangle& under = ground.triangles[static_cast<std::size_t>(
+        random.below(static_cast<int>(ground.triangles.size())))];
+    const V at =
+        (under.corner[0] + under.corner[1] + under.corner[2]) / 3 +
+        random.uniform(0.2, 1.0) * static_cast<double>(bounding_radius(shape)) * under.normal;
+    const Transform placed{
+        {static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
+        random.rotation()};
+    PartManifolds all;
+    collide_parts(ground.shape, ground.placed, shape, placed, Real(0.1), all);
+    const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
+    for (const PartManifold& part : all.parts) {
+      const V n = oracle::vec(part.manifold.normal);
+      // One point of the manifold at least must be touched along it; the others may lie beside.
+      bool some = false;
+      for (int i = 0; i < part.manifold.count && !some; ++i) {
+        const ManifoldPoint& point = part.manifold.points[i];
+        const V p = oracle::vec(point.position) - 0.5 * static_cast<double>(point.separation) * n;
+        bool holds = true, is_facet = false;
+        for (const Triangle& t : ground.triangles) {
+          if (point_triangle(p, t) > 2e-3 * half) continue;
+          is_facet = is_facet || (n - t.normal).norm() <= 1e-3;
+          for (const V& corner : t.corner)
+            holds = holds && n.dot(corner - p) <= 1e-3 * (corner - p).norm() + 4e-3 * half;
+        }
+        some = holds || is_facet;
+      }
+      EXPECT_TRUE(some) << "trial " << trial << " kind " << trial % 4 << " part " << part.part
+                        << " n " << n.transpose();
+    }
+  }
+}
+
+// The mesh of a box is the box, and that of a plane is the half-space, while the overlap is small.
+TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
+  Random random(29);
+  const CollisionShape mesh =
+      make_collision_shape(TriangleMesh{surfaces::made(surfaces::box_soup(2, 1, 1.5))});
+  const CollisionShape box = make_collision_shape(Box{Vec3(2, 1, Real(1.5))});
+  int touched = 0;
+  for (int trial = 0; trial < 8000; ++trial) {
+    const CollisionShape shape = random_convex(random, trial % 4, 0.6);
+    const Transform fixed{{0, 0, 0}, random.rotation()};
+    const V at = random.uniform(1, 3) * random.direction();
+    const Transform placed{
+        {static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
+        random.below(3) == 0 ? fixed.q : random.rotation()};
+    const double truth =
+        oracle::signed_distance(oracle::solid_of(box, fixed), oracle::solid_of(shape, placed));
+    const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
+    PartManifolds all;
+    const bool hit = collide_parts(mesh, fixed, shape, placed, Real(0), all);
+    if (truth > 1e-4) EXPECT_FALSE(hit) << "trial " << trial << " kind " << trial % 4 << " truth " << truth << " deep " << deepest_of(all) << " " << all.parts.size();
+    // Deep capsules and edges among themselves have other ways out: a fifth of the half thickness.
+    if (truth > -2e-3 * half || truth < -0.2 * half) continue;
+    ++touched;
+    ASSERT_TRUE(hit) << "trial " << trial << " kind " << trial % 4 << " depth " << truth;
+    double least = 0;  // the shallowest part is the way out
+    for (const PartManifold& part : all.parts) {
+      double deepest = 0;
+      for (int i = 0; i < part.manifold.count; ++i)
+        deepest = std::min(deepest, static_cast<double>(part.manifold.points[i].separation));
+      least = least == 0 ? deepest : std::max(least, deepest);
+    }
+    EXPECT_NEAR(least, truth, 2.2e-3 * half + 64 * kEpsilon)
+        << "trial " << trial << " kind " << trial % 4 << " parts " << all.parts.size();
+  }
+  EXPECT_GT(touched, 150);
+}
+
+// However a plane is cut into triangles, what lies on it has the contacts it has with a half-space.
+TEST(SurfaceOracle, APlaneOfTrianglesIsAHalfSpace) {
+  Random random(31);
+  const CollisionShape plane = make_collision_shape(HalfSpace{});
+  std::vector<CollisionShape> cuts;
+  for (const auto& [nx, nz] : {std::pair{1, 1}, {7, 5}, {40, 1}, {1, 60}, {30, 30}})
+    cuts.push_back(make_collision_shape(
+        TriangleMesh{surfaces::made(surfaces::grid(-4, 4, -4, 4, nx, nz, surfaces::level, true))}));
+  cuts.push_back(make_collision_shape(
+      Heightfield{surfaces::field(41, 41, 0.2, [](int, int) { return 0.0; })}));
+  for (int trial = 0; trial < 1500; ++trial) {
+    const CollisionShape shape = random_convex(random, trial % 4, 0.5);
+    // Lying flat in a third of all.
+    const Rotation q =
+        random.below(3) == 0
+            ? from_rotation_vector(Vec{0, static_cast<Real>(random.uniform(0, 3)), 0})
+            : random.rotation();
+    Transform placed{
+        {static_cast<Real>(random.uniform(-1, 1)), 0, static_cast<Real>(random.uniform(-1, 1))}, q};
+    const Aabb box = bounds_of(shape, placed);
+    placed.p.y = -box.lower.y + static_cast<Real>(random.uniform(-0.02, 0.02));
+    Manifold truth;
+    const bool touches =
+        collide(plane, {{0, 0, 0}, {0, 0, 0, 1}}, shape, placed, Real(0.05), truth);
+    for (std::size_t c = 0; c < cuts.size(); ++c) {
+      const bool is_field = c + 1 == cuts.size();
+      const Transform at{{is_field ? Real(-4) : Real(0), 0, is_field ? Real(-4) : Real(0)},
+                         {0, 0, 0, 1}};
+      PartManifolds all;
+      ASSERT_EQ(collide_parts(cuts[c], at, shape, placed, Real(0.05), all), touches);
+      if (!touches) continue;
+      ASSERT_EQ(all.parts.size(), 1U) << "trial " << trial << " cut " << c << " kind " << trial % 4;
+      const Manifold& m = all.parts[0].manifold;
+      EXPECT_EQ(m.normal.y, Real(1));
+      EXPECT_GE(m.count, truth.count > 2 && trial % 4 > 1 ? 3 : 1);
+      double deepest = 1, deepest_truth = 1;
+      for (int i = 0; i < m.count; ++i)
+        deepest = std::min(deepest, static_cast<double>(m.points[i].separation));
+      for (int i = 0; i < truth.count; ++i)
+        deepest_truth = std::min(deepest_truth, static_cast<double>(truth.points[i].separation));
+      // Points of two triangles that coincide to a thousandth of the half thickness are one, as
+      // deep as the deeper of them to a millionth.
+      EXPECT_NEAR(deepest, deepest_truth, 1e-6 * 0.5 + 64 * kEpsilon)
+          << "trial " << trial << " cut " << c;
+      // The same support: each point of one has one of the other at its side.
+      if (trial % 4 == 2 && truth.count == m.count) {
+        for (int i = 0; i < m.count; ++i) {
+          double nearest = 1;
+          for (int k = 0; k < truth.count; ++k)
+            nearest = std::min(nearest, static_cast<double>(length(m.points[i].position -
+                                                                   truth.points[k].position)));
+          EXPECT_LT(nearest, 2e-3) << "trial " << trial << " cut " << c;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumb::inline PLUMB_ABI
