@@ -7,14 +7,21 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// By first, then second shape, in the order of ShapeType: sphere, capsule, box, hull, half-space.
+// By first, then second shape, in the order of ShapeType: sphere, capsule, box, hull, half-space,
+// cylinder, cone.
 constexpr PairRoutine kRoutines[kShapeTypeCount][kShapeTypeCount] = {
-    {collide_spheres, nullptr, nullptr, nullptr, nullptr},
-    {collide_capsule_sphere, collide_capsules, nullptr, nullptr, nullptr},
-    {collide_box_sphere, collide_box_capsule, collide_boxes, collide_polyhedra, nullptr},
-    {collide_hull_sphere, collide_hull_capsule, collide_polyhedra, collide_polyhedra, nullptr},
+    {collide_spheres, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
+    {collide_capsule_sphere, collide_capsules, nullptr, nullptr, nullptr, nullptr, nullptr},
+    {collide_box_sphere, collide_box_capsule, collide_boxes, collide_polyhedra, nullptr,
+     collide_curved, collide_curved},
+    {collide_hull_sphere, collide_hull_capsule, collide_polyhedra, collide_polyhedra, nullptr,
+     collide_curved, collide_curved},
     {collide_half_space_sphere, collide_half_space_capsule, collide_half_space_box,
-     collide_half_space_hull, nullptr},
+     collide_half_space_hull, nullptr, collide_half_space_curved, collide_half_space_curved},
+    {collide_curved_sphere, collide_curved, collide_curved, collide_curved, nullptr, collide_curved,
+     collide_curved},
+    {collide_curved_sphere, collide_curved, collide_curved, collide_curved, nullptr, collide_curved,
+     collide_curved},
 };
 
 int rank(ShapeType type) {
@@ -25,6 +32,8 @@ int rank(ShapeType type) {
       return 1;
     case ShapeType::Box:
     case ShapeType::Hull:
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
       return 2;
     case ShapeType::HalfSpace:
       return 3;
@@ -59,6 +68,44 @@ bool goes_second(const CollisionShape& a, const Transform& xa, const CollisionSh
   return placed_after(xa, xb);
 }
 
+// [m] The radii that a pair's routine leaves out: of a core with flat faces always, of spheres and
+// capsules where they meet a curved core.
+struct AddedRadii {
+  Num first, second;
+};
+AddedRadii added_radii(const CollisionShape& first, const CollisionShape& second) {
+  const bool curved = is_curved(first.type) || is_curved(second.type);
+  const auto of = [curved](const CollisionShape& s) {
+    const bool own = s.type == ShapeType::Sphere || s.type == ShapeType::Capsule;
+    return own && !curved ? Num(0) : static_cast<Num>(s.radius);
+  };
+  return {of(first), of(second)};
+}
+
+// Grows both shapes. A core's point, moved out by the radius along the normal, lies on the grown
+// surface where the core rests on it; a point that rises steeply from the deepest one lies on a
+// face that looks elsewhere, and goes.
+void grow(const AddedRadii& radii, Contacts& contacts) {
+  const NumVec n = contacts.normal;
+  int deepest = 0;
+  for (int i = 1; i < contacts.count; ++i) {
+    if (contacts.points[i].separation < contacts.points[deepest].separation) deepest = i;
+  }
+  const ContactPoint lowest = contacts.points[deepest];
+  int kept = 0;
+  for (int i = 0; i < contacts.count; ++i) {
+    ContactPoint point = contacts.points[i];
+    const NumVec d = point.position - lowest.position;
+    const Num rise = point.separation - lowest.separation, along = dot(d, n);
+    const Num aside_squared = length_squared(d) - along * along;
+    if (rise * rise > kGrownSlope * kGrownSlope * aside_squared && rise > Num(0)) continue;
+    point.separation -= radii.first + radii.second;
+    point.position += (Num(0.5) * (radii.first - radii.second)) * n;
+    contacts.points[kept++] = point;
+  }
+  contacts.count = kept;
+}
+
 NumRotation unit_rotation(Rotation q) { return normalized(NumRotation{q.x, q.y, q.z, q.w}); }
 
 // One sum finds any number that is not finite; finite single coordinates cannot overflow it.
@@ -83,10 +130,13 @@ bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape&
   const NumVec origin = to_num(x_first.p), offset = to_num(x_second.p) - origin;
   const NumRotation q_first = unit_rotation(x_first.q), q_second = unit_rotation(x_second.q);
   if (!is_placed(offset, q_first, q_second)) return false;
+  const AddedRadii radii = added_radii(first, second);
+  const Num added = radii.first + radii.second;
   Contacts contacts;
-  routine({first, {0, 0, 0}, q_first}, {second, offset, q_second}, static_cast<Num>(margin),
+  routine({first, {0, 0, 0}, q_first}, {second, offset, q_second}, static_cast<Num>(margin) + added,
           contacts);
   if (contacts.count == 0) return false;
+  if (added > Num(0)) grow(radii, contacts);
 
   // Turning a normal into world axes leaves it a few roundings away from unit length.
   const NumVec normal = (Num(1) / length(contacts.normal)) * contacts.normal;

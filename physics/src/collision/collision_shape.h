@@ -1,5 +1,5 @@
 // A shape as the collision routines see it: a core (point, segment, box, polyhedron, plane) grown
-// by a radius.
+// by a radius. Cylinder, cone: see shapes.h.
 #pragma once
 
 #include <memory>
@@ -9,18 +9,24 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-enum class ShapeType : std::uint8_t { Sphere, Capsule, Box, Hull, HalfSpace };
-inline constexpr int kShapeTypeCount = 5;
+enum class ShapeType : std::uint8_t { Sphere, Capsule, Box, Hull, HalfSpace, Cylinder, Cone };
+inline constexpr int kShapeTypeCount = 7;
 
 struct CollisionShape {
   ShapeType type = ShapeType::Sphere;
-  Real radius = 0;                     // [m] sphere, capsule; 0 for the others
-  Vec half{0, 0, 0};                   // [m] box: half extents; capsule: (0, half_length, 0)
-  Vec normal{0, 1, 0};                 // half-space: outward unit normal
-  Real offset = 0;                     // [m] half-space
+  Real radius = 0;      // [m] of the ball the core is grown by; 0 for a half-space
+  Vec half{0, 0, 0};    // [m] half extents of the core of a box, capsule (0, half_length, 0),
+                        // cylinder or cone (radius, half_length, radius)
+  Vec normal{0, 1, 0};  // half-space: outward unit normal
+  Real offset = 0;      // [m] half-space
   const HullGeometry* hull = nullptr;  // hull; kept alive by `owner`
   std::shared_ptr<const HullGeometry> owner;
 };
+
+// Whether a core has a round side (cylinder or cone).
+constexpr bool is_curved(ShapeType type) {
+  return type == ShapeType::Cylinder || type == ShapeType::Cone;
+}
 
 // Precondition: the shape passed check_shape().
 CollisionShape make_collision_shape(const Shape& shape);
