@@ -1,8 +1,7 @@
 // Rays against single shapes, in the shape's frame and in double precision. The boundary belongs to
 // the shape: a ray that starts on it starts inside.
 #include "collision/collide.h"
-#include "collision/gjk.h"
-#include "collision/round_core.h"
+#include "collision/core_distance.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -111,11 +110,10 @@ Hit cast_half_space(const Ray& ray, NumVec normal, Num offset) {
 
 // A core grown by a radius: the distance from a convex core is a convex function along the ray, so
 // that Newton's steps, taken from outside, never pass its first root and meet it quadratically (a
-// ray that only grazes: halving the rest each time). `distance_at(x)`: of a point, with the unit
-// direction in which it grows; below 0 only where it is inside.
-template <class DistanceAt>
-Hit cast_grown(const Ray& ray, Num radius, Num size, const DistanceAt& distance_at) {
-  RoundDistance at = distance_at(ray.origin);
+// ray that only grazes: halving the rest each time).
+Hit cast_grown(const Ray& ray, const CollisionShape& shape) {
+  const Num radius = shape.radius, size = static_cast<Num>(bounding_radius(shape));
+  CoreDistance at = distance_to_core(shape, ray.origin);
   if (at.distance - radius <= Num(0)) return kInside;
   Num t = Num(0);
   for (int i = 0; i < kMaxRaySteps; ++i) {
@@ -125,7 +123,7 @@ Hit cast_grown(const Ray& ray, Num radius, Num size, const DistanceAt& distance_
     const NumVec outward = at.outward;
     t += step;
     const NumVec x = ray.origin + t * ray.direction;
-    at = distance_at(x);
+    at = distance_to_core(shape, x);
     const Num left = at.distance - radius;
     const Num rounding = Num(8) * kNumEpsilon * (size + length(x));
     if (left <= rounding) {
@@ -133,28 +131,6 @@ Hit cast_grown(const Ray& ray, Num radius, Num size, const DistanceAt& distance_
     }
   }
   return kMiss;
-}
-
-RoundDistance distance_to_box(NumVec x, NumVec half) {
-  const NumVec d = x - max_each(-half, min_each(half, x));
-  return {length(d), normalized_or(d, NumVec{0, 0, 0})};
-}
-
-RoundDistance distance_to_hull(NumVec x, const HullGeometry& hull) {
-  const std::vector<Vec3>& vertices = hull.vertices();
-  const auto farthest = [&vertices](NumVec d) {
-    NumVec best = to_num(vertices[0]);
-    for (const Vec3& v : vertices) {
-      const NumVec vertex = to_num(v);
-      if (dot(vertex, d) > dot(best, d)) best = vertex;
-    }
-    return best;
-  };
-  const GjkResult closest = gjk_distance(
-      farthest, [x](NumVec) { return x; }, x - to_num(hull.interior_point()),
-      static_cast<Num>(hull.outer_radius()));
-  if (closest.overlap) return {Num(0), {0, 0, 0}};
-  return {closest.distance, closest.normal};
 }
 
 Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
@@ -166,16 +142,13 @@ Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
       return cast_capsule(ray, shape.half.y, shape.radius);
     case ShapeType::Box:
       if (!(radius > Num(0))) return cast_box(ray, to_num(shape.half));
-      return cast_grown(ray, radius, length(to_num(shape.half)) + radius,
-                        [&shape](NumVec x) { return distance_to_box(x, to_num(shape.half)); });
+      return cast_grown(ray, shape);
     case ShapeType::Hull:
       if (!(radius > Num(0))) return cast_hull(ray, *shape.hull);
-      return cast_grown(ray, radius, static_cast<Num>(bounding_radius(shape)),
-                        [&shape](NumVec x) { return distance_to_hull(x, *shape.hull); });
+      return cast_grown(ray, shape);
     case ShapeType::Cylinder:
     case ShapeType::Cone:
-      return cast_grown(ray, radius, static_cast<Num>(bounding_radius(shape)),
-                        [&shape](NumVec x) { return distance_to_round(shape, x); });
+      return cast_grown(ray, shape);
     case ShapeType::HalfSpace:
       break;
   }

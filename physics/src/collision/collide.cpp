@@ -3,6 +3,7 @@
 #include "collision/collide.h"
 
 #include "collision/collide_pairs.h"
+#include "collision/core_distance.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -82,23 +83,30 @@ AddedRadii added_radii(const CollisionShape& first, const CollisionShape& second
   return {of(first), of(second)};
 }
 
+// By how much less than its radius the grown surface lies from a point of the core, along n [m].
+Num missed(const Placed& x, Num radius, NumVec on_core, NumVec n) {
+  if (!(radius > Num(0))) return Num(0);
+  const NumVec local = rotate(conjugate(x.q), on_core + radius * n - x.p);
+  return radius - distance_to_core(x.shape, local).distance;
+}
+
 // Grows both shapes. A core's point, moved out by the radius along the normal, lies on the grown
-// surface where the core rests on it; a point that rises steeply from the deepest one lies on a
-// face that looks elsewhere, and goes.
-void grow(const AddedRadii& radii, Contacts& contacts) {
+// surface where the core rests on it; where the core only has a face that looks elsewhere it lies
+// inside, and goes. The deepest point stays.
+void grow(const Placed& a, const Placed& b, const AddedRadii& radii, Contacts& contacts) {
   const NumVec n = contacts.normal;
-  int deepest = 0;
+  int deepest = 0, kept = 0;
   for (int i = 1; i < contacts.count; ++i) {
     if (contacts.points[i].separation < contacts.points[deepest].separation) deepest = i;
   }
-  const ContactPoint lowest = contacts.points[deepest];
-  int kept = 0;
   for (int i = 0; i < contacts.count; ++i) {
     ContactPoint point = contacts.points[i];
-    const NumVec d = point.position - lowest.position;
-    const Num rise = point.separation - lowest.separation, along = dot(d, n);
-    const Num aside_squared = length_squared(d) - along * along;
-    if (rise * rise > kGrownSlope * kGrownSlope * aside_squared && rise > Num(0)) continue;
+    const NumVec half_way = (Num(0.5) * point.separation) * n;
+    if (i != deepest &&
+        (missed(a, radii.first, point.position - half_way, n) > kGrownMiss * radii.first ||
+         missed(b, radii.second, point.position + half_way, -n) > kGrownMiss * radii.second)) {
+      continue;
+    }
     point.separation -= radii.first + radii.second;
     point.position += (Num(0.5) * (radii.first - radii.second)) * n;
     contacts.points[kept++] = point;
@@ -132,11 +140,11 @@ bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape&
   if (!is_placed(offset, q_first, q_second)) return false;
   const AddedRadii radii = added_radii(first, second);
   const Num added = radii.first + radii.second;
+  const Placed placed_first{first, {0, 0, 0}, q_first}, placed_second{second, offset, q_second};
   Contacts contacts;
-  routine({first, {0, 0, 0}, q_first}, {second, offset, q_second}, static_cast<Num>(margin) + added,
-          contacts);
+  routine(placed_first, placed_second, static_cast<Num>(margin) + added, contacts);
   if (contacts.count == 0) return false;
-  if (added > Num(0)) grow(radii, contacts);
+  if (added > Num(0)) grow(placed_first, placed_second, radii, contacts);
 
   // Turning a normal into world axes leaves it a few roundings away from unit length.
   const NumVec normal = (Num(1) / length(contacts.normal)) * contacts.normal;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "collision/collide_pairs.h"
+#include "collision/core_distance.h"
 #include "collision/feature_overlay.h"
 #include "collision/penetration.h"
 
@@ -74,7 +75,7 @@ void collide_curved(const Placed& a, const Placed& b, Num margin, Contacts& out)
 }
 
 void collide_curved_sphere(const Placed& a, const Placed& b, Num margin, Contacts& out) {
-  const RoundDistance d = distance_to_round(a.shape, rotate(conjugate(a.q), b.p));
+  const CoreDistance d = distance_to_core(a.shape, rotate(conjugate(a.q), b.p));
   if (!(d.distance <= margin)) return;
   out.normal = rotate(a.q, d.outward);
   out.add(b.p - Num(0.5) * d.distance * out.normal, d.distance,

@@ -57,10 +57,10 @@ inline constexpr Num kParallelCapsules = 0.01;
 // ... and if the angle between the axes is at most this [rad]: the surface of the second along the
 // normal is then its radius away to half a percent.
 inline constexpr Num kParallelTilt = 0.1;
-// Where the cores of rounded shapes rest on one another, points that rise from the deepest by more
-// than this slope are left out: the tangent of kParallelTilt, the same half a percent of the
-// radius.
-inline constexpr Num kGrownSlope = 0.1004;
+// Points where the grown surface of a rounded shape lies closer to the core's point than its radius
+// by more than this part of the radius are left out: at kParallelTilt a flat face misses half a
+// percent.
+inline constexpr Num kGrownMiss = 5e-3;
 
 // ---- rounding
 // ---------------------------------------------------------------------------------------

@@ -63,7 +63,9 @@ void ConvexCore::round_feature(NumVec n, SupportFeature& out) const {
   const Num along = dot(n, axis_);
   const NumVec aside = n - along * axis_;
   const NumVec spoke{rows_.row0.x, rows_.row1.x, rows_.row2.x};
-  const NumVec radial = normalized_or(aside, spoke);
+  // Along the axis no generator is farther out than another, and what is left of n is rounding.
+  const bool end_on = !(length_squared(aside) > kParallelSine * kParallelSine);
+  const NumVec radial = end_on ? spoke : normalized_or(aside, spoke);
   const Num across = dot(n, radial);
   const bool cone = shape_.type == ShapeType::Cone;
   // How well the side (at its best generator) and the flat end look along n.

@@ -32,12 +32,4 @@ inline NumVec support_of_round(const CollisionShape& shape, NumVec d) {
   return rim;
 }
 
-// Signed distance of a point from the core (negative inside), and the direction in which it grows:
-// away from the nearest point of the surface.
-struct RoundDistance {
-  Num distance;    // [m]
-  NumVec outward;  // unit, shape frame
-};
-RoundDistance distance_to_round(const CollisionShape& shape, NumVec point);
-
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -135,7 +135,7 @@ void check_scene(const Scene& s, Worst& worst) {
   // Points beside a face by the clip band; on round sides the tilt up to which lines count as
   // parallel, and on grown ones the slope that is kept.
   double surface_bound = rounding + chosen + 4 * kClipBand * thickness;
-  surface_bound += 0.6 * kParallelTilt * kParallelTilt * grown;
+  surface_bound += 1.01 * kGrownMiss * grown;
   double bend = 0;
   for (const CollisionShape* shape : {&s.a, &s.b})
     if (is_curved(shape->type)) bend += static_cast<double>(shape->half.x);

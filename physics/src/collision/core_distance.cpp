@@ -1,3 +1,6 @@
+#include "collision/core_distance.h"
+
+#include "collision/gjk.h"
 #include "collision/round_core.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -45,9 +48,7 @@ FlatDistance to_cone(Flat p, Num radius, Num half) {
   return {side, normal};
 }
 
-}  // namespace
-
-RoundDistance distance_to_round(const CollisionShape& shape, NumVec point) {
+CoreDistance distance_to_round(const CollisionShape& shape, NumVec point) {
   const NumVec half = to_num(shape.half);
   const NumVec aside{point.x, Num(0), point.z};
   const Flat p{length(aside), point.y};
@@ -55,6 +56,49 @@ RoundDistance distance_to_round(const CollisionShape& shape, NumVec point) {
                                                               : to_cone(p, half.x, half.y);
   const NumVec radial = normalized_or(aside, NumVec{1, 0, 0});
   return {flat.distance, flat.outward.r * radial + NumVec{0, flat.outward.y, 0}};
+}
+
+// Of spheres, capsules and boxes: from the nearest point of the box of half extents.
+CoreDistance distance_to_box(NumVec x, NumVec half) {
+  const NumVec d = x - max_each(-half, min_each(half, x));
+  return {length(d), normalized_or(d, NumVec{0, 0, 0})};
+}
+
+CoreDistance distance_to_hull(NumVec x, const HullGeometry& hull) {
+  const std::vector<Vec3>& vertices = hull.vertices();
+  const auto farthest = [&vertices](NumVec d) {
+    NumVec best = to_num(vertices[0]);
+    for (const Vec3& v : vertices) {
+      const NumVec vertex = to_num(v);
+      if (dot(vertex, d) > dot(best, d)) best = vertex;
+    }
+    return best;
+  };
+  const GjkResult closest = gjk_distance(
+      farthest, [x](NumVec) { return x; }, x - to_num(hull.interior_point()),
+      static_cast<Num>(hull.outer_radius()));
+  if (closest.overlap) return {Num(0), {0, 0, 0}};
+  return {closest.distance, closest.normal};
+}
+
+}  // namespace
+
+CoreDistance distance_to_core(const CollisionShape& shape, NumVec point) {
+  switch (shape.type) {
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
+      return distance_to_round(shape, point);
+    case ShapeType::Hull:
+      return distance_to_hull(point, *shape.hull);
+    case ShapeType::Sphere:
+    case ShapeType::Capsule:
+    case ShapeType::Box:
+      return distance_to_box(point, to_num(shape.half));
+    case ShapeType::HalfSpace:
+      break;
+  }
+  const NumVec n = normalized_or(to_num(shape.normal), NumVec{0, 1, 0});
+  return {dot(n, point) - static_cast<Num>(shape.offset), n};
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail
