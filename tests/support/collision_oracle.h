@@ -50,7 +50,7 @@ inline void add_face(Solid& s, std::vector<int> loop) {
   s.faces.push_back(std::move(loop));
 }
 
-// Every finite shape; not the half-space.
+// Every finite shape of corners; not the half-space, cylinder and cone.
 inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transform& x) {
   Solid s;
   s.radius = static_cast<double>(shape.radius);
@@ -87,6 +87,8 @@ inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transfo
       }
       break;
     case detail::ShapeType::HalfSpace:
+    case detail::ShapeType::Cylinder:
+    case detail::ShapeType::Cone:
       break;
   }
   return s;

@@ -18,14 +18,37 @@ struct Sphere {
   Real radius = Real(0.5);  // [m] > 0
 };
 
+// Rounding: box, cylinder, cone and hull may be grown by a ball of radius `rounding`, as a capsule
+// is a segment grown by its radius. The other sizes name the sharp core; the ball is added outside
+// of it, so that the total size is larger by `rounding` on every side (a Box{(1, 1, 1), 0.1}
+// reaches from -1.1 to 1.1 m). 0: sharp edges. All answers are those of the grown shape, exactly.
+
 struct Box {
-  Vec3 half_extents = Vec3::Constant(Real(0.5));  // [m] > 0 each
+  Vec3 half_extents = Vec3::Constant(Real(0.5));  // [m] > 0 each, of the core
+  Real rounding = Real(0);                        // [m] >= 0, added outside
 };
 
 // A segment along the local y axis, from -half_length to +half_length, grown by a radius.
 struct Capsule {
   Real half_length = Real(0.5);  // [m] > 0
   Real radius = Real(0.25);      // [m] > 0
+};
+
+// A solid cylinder about the local y axis, its flat ends in the planes y = -half_length and
+// y = +half_length. Truly round: it has no corners.
+struct Cylinder {
+  Real half_length = Real(0.5);  // [m] > 0, of the core
+  Real radius = Real(0.5);       // [m] > 0, of the core
+  Real rounding = Real(0);       // [m] >= 0, added outside
+};
+
+// A solid cone about the local y axis. The origin lies on the axis, midway between base and apex:
+// the base disc is in the plane y = -half_length, the apex at (0, +half_length, 0). The height is
+// 2 half_length; the centre of mass (without rounding) at (0, -half_length / 2, 0).
+struct Cone {
+  Real half_length = Real(0.5);  // [m] > 0, of the core
+  Real radius = Real(0.5);       // [m] > 0, of the core's base
+  Real rounding = Real(0);       // [m] >= 0, added outside
 };
 
 // Everything with normal . x <= offset is solid. Only for static bodies.
@@ -90,6 +113,7 @@ class HullGeometry {
 
 struct ConvexHull {
   std::shared_ptr<const HullGeometry> geometry;
+  Real rounding = Real(0);  // [m] >= 0, added outside
 };
 
 // A surface, not a solid: what is behind it is not pushed out but near the surface. Only for static
@@ -109,7 +133,8 @@ struct Compound {
   std::shared_ptr<const CompoundGeometry> geometry;
 };
 
-using Shape =
-    std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, TriangleMesh, Heightfield, Compound>;
+// Recordings and snapshots name a shape by its place in this list: new ones go to the end.
+using Shape = std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, TriangleMesh, Heightfield,
+                           Compound, Cylinder, Cone>;
 
 }  // namespace plumb::inline PLUMB_ABI

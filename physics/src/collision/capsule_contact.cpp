@@ -51,6 +51,7 @@ void add_capsule_contacts(const FacePolygon& face, const Segment& axis, Num radi
   const Num steepness = dot(face.normal, n), tilt = dot(along, n);
   const Num length_sq = length_squared(along);
   out.normal = n;
+  NumVec on_axis = proximity.on_axis;
   ClippedEnd ends[2];
   if (steepness >= kSteepFace && tilt * tilt <= kParallelTilt * kParallelTilt * length_sq &&
       clip_axis(face, axis, n, kAttained * thickness, ends)) {
@@ -78,10 +79,13 @@ void add_capsule_contacts(const FacePolygon& face, const Segment& axis, Num radi
       }
       return;
     }
+    // Too narrow for two points, but a point of the axis within it is a point above the face.
+    if (std::min(core[0], core[1]) <= proximity.distance + slack)
+      on_axis = point_at(axis, ends[core[0] <= core[1] ? 0 : 1].at);
   }
   const Num separation = proximity.distance - radius;
   if (!(separation <= margin)) return;
-  out.add(proximity.on_axis - (radius + Num(0.5) * separation) * n, separation,
+  out.add(on_axis - (radius + Num(0.5) * separation) * n, separation,
           pair_name(face.name, face_name(0)));
 }
 

@@ -3,6 +3,7 @@
 #include "collision/collide.h"
 #include "collision/collide_parts.h"
 #include "collision/contact_points.h"
+#include "collision/core_distance.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -109,16 +110,47 @@ Hit cast_half_space(const Ray& ray, NumVec normal, Num offset) {
   return {Outcome::Hit, -height / rise, normal};
 }
 
+// A core grown by a radius: the distance from a convex core is a convex function along the ray, so
+// that Newton's steps, taken from outside, never pass its first root and meet it quadratically (a
+// ray that only grazes: halving the rest each time).
+Hit cast_grown(const Ray& ray, const CollisionShape& shape) {
+  const Num radius = shape.radius, size = static_cast<Num>(bounding_radius(shape));
+  CoreDistance at = distance_to_core(shape, ray.origin);
+  if (at.distance - radius <= Num(0)) return kInside;
+  Num t = Num(0);
+  for (int i = 0; i < kMaxRaySteps; ++i) {
+    const Num slope = dot(at.outward, ray.direction);
+    if (!(slope < Num(0))) return kMiss;
+    const Num step = (at.distance - radius) / -slope;
+    const NumVec outward = at.outward;
+    t += step;
+    const NumVec x = ray.origin + t * ray.direction;
+    at = distance_to_core(shape, x);
+    const Num left = at.distance - radius;
+    const Num rounding = Num(8) * kNumEpsilon * (size + length(x));
+    if (left <= rounding) {
+      return {Outcome::Hit, t, length_squared(at.outward) > Num(0) ? at.outward : outward};
+    }
+  }
+  return kMiss;
+}
+
 Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
+  const Num radius = shape.radius;
   switch (shape.type) {
     case ShapeType::Sphere:
       return cast_round(ray.origin, ray.direction, shape.radius);
     case ShapeType::Capsule:
       return cast_capsule(ray, shape.half.y, shape.radius);
     case ShapeType::Box:
-      return cast_box(ray, to_num(shape.half));
+      if (!(radius > Num(0))) return cast_box(ray, to_num(shape.half));
+      return cast_grown(ray, shape);
     case ShapeType::Hull:
-      return cast_hull(ray, *shape.hull);
+      if (!(radius > Num(0))) return cast_hull(ray, *shape.hull);
+      return cast_grown(ray, shape);
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
+      return cast_grown(ray, shape);
     case ShapeType::HalfSpace:
     case ShapeType::Mesh:
     case ShapeType::Heightfield:

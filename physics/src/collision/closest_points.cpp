@@ -3,6 +3,7 @@
 #include "collision/collide_parts.h"
 #include "collision/contact_points.h"
 #include "collision/gjk.h"
+#include "collision/round_core.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -49,6 +50,7 @@ class PlacedCore {
       }
       return to_num(vertices[farthest]);
     }
+    if (is_curved(shape_.type)) return support_of_round(shape_, d);
     const NumVec half = to_num(shape_.half);
     return {d.x < Num(0) ? -half.x : half.x, d.y < Num(0) ? -half.y : half.y,
             d.z < Num(0) ? -half.z : half.z};

@@ -4,18 +4,26 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/collide_parts.h"
+#include "collision/core_distance.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// By first, then second shape, in the order of ShapeType: sphere, capsule, box, hull, half-space.
+// By first, then second shape, in the order of ShapeType: sphere, capsule, box, hull, half-space,
+// cylinder, cone.
 constexpr PairRoutine kRoutines[kShapeTypeCount][kShapeTypeCount] = {
-    {collide_spheres, nullptr, nullptr, nullptr, nullptr},
-    {collide_capsule_sphere, collide_capsules, nullptr, nullptr, nullptr},
-    {collide_box_sphere, collide_box_capsule, collide_boxes, collide_polyhedra, nullptr},
-    {collide_hull_sphere, collide_hull_capsule, collide_polyhedra, collide_polyhedra, nullptr},
+    {collide_spheres, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
+    {collide_capsule_sphere, collide_capsules, nullptr, nullptr, nullptr, nullptr, nullptr},
+    {collide_box_sphere, collide_box_capsule, collide_boxes, collide_polyhedra, nullptr,
+     collide_curved, collide_curved},
+    {collide_hull_sphere, collide_hull_capsule, collide_polyhedra, collide_polyhedra, nullptr,
+     collide_curved, collide_curved},
     {collide_half_space_sphere, collide_half_space_capsule, collide_half_space_box,
-     collide_half_space_hull, nullptr},
+     collide_half_space_hull, nullptr, collide_half_space_curved, collide_half_space_curved},
+    {collide_curved_sphere, collide_curved, collide_curved, collide_curved, nullptr, collide_curved,
+     collide_curved},
+    {collide_curved_sphere, collide_curved, collide_curved, collide_curved, nullptr, collide_curved,
+     collide_curved},
 };
 
 int rank(ShapeType type) {
@@ -26,6 +34,8 @@ int rank(ShapeType type) {
       return 1;
     case ShapeType::Box:
     case ShapeType::Hull:
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
       return 2;
     case ShapeType::HalfSpace:
       return 3;
@@ -64,6 +74,51 @@ bool goes_second(const CollisionShape& a, const Transform& xa, const CollisionSh
   return placed_after(xa, xb);
 }
 
+// [m] The radii that a pair's routine leaves out: of a core with flat faces always, of spheres and
+// capsules where they meet a curved core.
+struct AddedRadii {
+  Num first, second;
+};
+AddedRadii added_radii(const CollisionShape& first, const CollisionShape& second) {
+  const bool curved = is_curved(first.type) || is_curved(second.type);
+  const auto of = [curved](const CollisionShape& s) {
+    const bool own = s.type == ShapeType::Sphere || s.type == ShapeType::Capsule;
+    return own && !curved ? Num(0) : static_cast<Num>(s.radius);
+  };
+  return {of(first), of(second)};
+}
+
+// By how much less than its radius the grown surface lies from a point of the core, along n [m].
+Num missed(const Placed& x, Num radius, NumVec on_core, NumVec n) {
+  if (!(radius > Num(0))) return Num(0);
+  const NumVec local = rotate(conjugate(x.q), on_core + radius * n - x.p);
+  return radius - distance_to_core(x.shape, local).distance;
+}
+
+// Grows both shapes. A core's point, moved out by the radius along the normal, lies on the grown
+// surface where the core rests on it; where the core only has a face that looks elsewhere it lies
+// inside, and goes. The deepest point stays.
+void grow(const Placed& a, const Placed& b, const AddedRadii& radii, Contacts& contacts) {
+  const NumVec n = contacts.normal;
+  int deepest = 0, kept = 0;
+  for (int i = 1; i < contacts.count; ++i) {
+    if (contacts.points[i].separation < contacts.points[deepest].separation) deepest = i;
+  }
+  for (int i = 0; i < contacts.count; ++i) {
+    ContactPoint point = contacts.points[i];
+    const NumVec half_way = (Num(0.5) * point.separation) * n;
+    if (i != deepest &&
+        (missed(a, radii.first, point.position - half_way, n) > kGrownMiss * radii.first ||
+         missed(b, radii.second, point.position + half_way, -n) > kGrownMiss * radii.second)) {
+      continue;
+    }
+    point.separation -= radii.first + radii.second;
+    point.position += (Num(0.5) * (radii.first - radii.second)) * n;
+    contacts.points[kept++] = point;
+  }
+  contacts.count = kept;
+}
+
 NumRotation unit_rotation(Rotation q) { return normalized(NumRotation{q.x, q.y, q.z, q.w}); }
 
 // One sum finds any number that is not finite; finite single coordinates cannot overflow it.
@@ -90,10 +145,13 @@ bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape&
   const NumVec origin = to_num(x_first.p), offset = to_num(x_second.p) - origin;
   const NumRotation q_first = unit_rotation(x_first.q), q_second = unit_rotation(x_second.q);
   if (!is_placed(offset, q_first, q_second)) return false;
+  const AddedRadii radii = added_radii(first, second);
+  const Num added = radii.first + radii.second;
+  const Placed placed_first{first, {0, 0, 0}, q_first}, placed_second{second, offset, q_second};
   Contacts contacts;
-  routine({first, {0, 0, 0}, q_first}, {second, offset, q_second}, static_cast<Num>(margin),
-          contacts);
+  routine(placed_first, placed_second, static_cast<Num>(margin) + added, contacts);
   if (contacts.count == 0) return false;
+  if (added > Num(0)) grow(placed_first, placed_second, radii, contacts);
 
   // Turning a normal into world axes leaves it a few roundings away from unit length.
   const NumVec normal = (Num(1) / length(contacts.normal)) * contacts.normal;

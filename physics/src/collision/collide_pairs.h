@@ -1,6 +1,7 @@
 // The pair routines behind collide(), one for each pair of kinds. The first shape is the "greater"
 // one: half-space, then polyhedra (the larger first), then capsule, then sphere. Each leaves
-// out.count = 0 where nothing lies within the margin.
+// out.count = 0 where nothing lies within the margin. The radii of spheres and capsules are the
+// routines' business, the rounding of the others is not: collide() adds it (see added_radii).
 #pragma once
 
 #include "collision/contact_points.h"
@@ -26,5 +27,10 @@ void collide_half_space_sphere(const Placed& a, const Placed& b, Num margin, Con
 void collide_half_space_capsule(const Placed& a, const Placed& b, Num margin, Contacts& out);
 void collide_half_space_box(const Placed& a, const Placed& b, Num margin, Contacts& out);
 void collide_half_space_hull(const Placed& a, const Placed& b, Num margin, Contacts& out);
+
+// Cylinders and cones: the sharp cores of both shapes, also of spheres and capsules.
+void collide_curved(const Placed& a, const Placed& b, Num margin, Contacts& out);
+void collide_curved_sphere(const Placed& a, const Placed& b, Num margin, Contacts& out);
+void collide_half_space_curved(const Placed& a, const Placed& b, Num margin, Contacts& out);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision/collision_tolerances.h"
+#include "collision/round_core.h"
 #include "collision/surface/composite_shape.h"
 #include "math/eigen_bridge.h"
 
@@ -27,15 +28,34 @@ Status check_extents(Real x, Real y, Real z) {
   return {};
 }
 
+constexpr Status kRounding{StatusCode::OutOfRange,
+                           "a shape's rounding must lie between 0 and 1e6 m"};
+
+Status check_rounding(Real rounding) {
+  if (!std::isfinite(rounding)) return kNotFinite;
+  if (!(rounding >= Real(0)) || static_cast<Num>(rounding) > kLargestSize) return kRounding;
+  return {};
+}
+
 struct Check {
   Status operator()(const Sphere& s) const { return check_extents(s.radius, s.radius, s.radius); }
   Status operator()(const Box& s) const {
+    if (const Status status = check_rounding(s.rounding); !status.ok()) return status;
     return check_extents(s.half_extents.x(), s.half_extents.y(), s.half_extents.z());
   }
   Status operator()(const Capsule& s) const {
     return check_extents(s.half_length, s.radius, s.radius);
   }
+  Status operator()(const Cylinder& s) const {
+    if (const Status status = check_rounding(s.rounding); !status.ok()) return status;
+    return check_extents(s.radius, s.half_length, s.radius);
+  }
+  Status operator()(const Cone& s) const {
+    if (const Status status = check_rounding(s.rounding); !status.ok()) return status;
+    return check_extents(s.radius, s.half_length, s.radius);
+  }
   Status operator()(const ConvexHull& s) const {
+    if (const Status status = check_rounding(s.rounding); !status.ok()) return status;
     if (s.geometry == nullptr) {
       return {StatusCode::BadShape, "a convex hull needs a geometry from HullGeometry::create"};
     }
@@ -65,6 +85,21 @@ struct Make {
     CollisionShape shape;
     shape.type = ShapeType::Box;
     shape.half = to_inner(s.half_extents);
+    shape.radius = s.rounding;
+    return shape;
+  }
+  CollisionShape operator()(const Cylinder& s) const {
+    CollisionShape shape;
+    shape.type = ShapeType::Cylinder;
+    shape.half = {s.radius, s.half_length, s.radius};
+    shape.radius = s.rounding;
+    return shape;
+  }
+  CollisionShape operator()(const Cone& s) const {
+    CollisionShape shape;
+    shape.type = ShapeType::Cone;
+    shape.half = {s.radius, s.half_length, s.radius};
+    shape.radius = s.rounding;
     return shape;
   }
   CollisionShape operator()(const Capsule& s) const {
@@ -79,6 +114,7 @@ struct Make {
     shape.type = ShapeType::Hull;
     shape.hull = s.geometry.get();
     shape.owner = s.geometry;
+    shape.radius = s.rounding;
     return shape;
   }
   CollisionShape operator()(const HalfSpace& s) const {
@@ -92,6 +128,27 @@ struct Make {
   CollisionShape operator()(const Heightfield& s) const { return make_heightfield(s); }
   CollisionShape operator()(const Compound& s) const { return make_compound(s); }
 };
+
+// How far a disc of unit radius about the shape's y axis reaches along each world axis.
+Vec disc_reach(const Matrix3<Real>& R) {
+  return {std::hypot(R.row0.x, R.row0.z), std::hypot(R.row1.x, R.row1.z),
+          std::hypot(R.row2.x, R.row2.z)};
+}
+
+Aabb cylinder_bounds(const CollisionShape& shape, const Transform& x) {
+  const Matrix3<Real> R = to_matrix(x.q);
+  const Vec along{shape.half.y * R.row0.y, shape.half.y * R.row1.y, shape.half.y * R.row2.y};
+  const Vec grown = shape.half.x * disc_reach(R) + Vec{shape.radius, shape.radius, shape.radius};
+  const Vec reach = absolute(along) + grown;
+  return {x.p - reach, x.p + reach};
+}
+
+Aabb cone_bounds(const CollisionShape& shape, const Transform& x) {
+  const Matrix3<Real> R = to_matrix(x.q);
+  const Vec apex{shape.half.y * R.row0.y, shape.half.y * R.row1.y, shape.half.y * R.row2.y};
+  const Vec disc = shape.half.x * disc_reach(R), r{shape.radius, shape.radius, shape.radius};
+  return {x.p + min_each(apex, -apex - disc) - r, x.p + max_each(apex, disc - apex) + r};
+}
 
 // The end of a half-space along one axis, if its normal is that axis (to round-off).
 void bound_axis(Real n, Real others, Real plane, Real& lower, Real& upper) {
@@ -133,8 +190,13 @@ Aabb bounds_of(const CollisionShape& shape, const Transform& x) {
         lower = min_each(lower, v);
         upper = max_each(upper, v);
       }
-      return {x.p + lower, x.p + upper};
+      const Vec r{shape.radius, shape.radius, shape.radius};
+      return {x.p + lower - r, x.p + upper + r};
     }
+    case ShapeType::Cylinder:
+      return cylinder_bounds(shape, x);
+    case ShapeType::Cone:
+      return cone_bounds(shape, x);
     case ShapeType::Sphere:
     case ShapeType::Capsule:
     case ShapeType::Box:
@@ -159,8 +221,11 @@ Real bounding_radius(const CollisionShape& shape) {
     case ShapeType::Hull: {
       Real squared = 0;
       for (const Vec3& v : shape.hull->vertices()) squared = std::max(squared, v.squaredNorm());
-      return std::sqrt(squared);
+      return std::sqrt(squared) + shape.radius;
     }
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
+      return std::hypot(shape.half.x, shape.half.y) + shape.radius;
     case ShapeType::Sphere:
     case ShapeType::Capsule:
     case ShapeType::Box:
@@ -175,11 +240,16 @@ Real smallest_thickness(const CollisionShape& shape) {
     case ShapeType::Capsule:
       return Real(2) * shape.radius;
     case ShapeType::Box:
-      return Real(2) * std::min(shape.half.x, std::min(shape.half.y, shape.half.z));
+      return Real(2) *
+             (std::min(shape.half.x, std::min(shape.half.y, shape.half.z)) + shape.radius);
     case ShapeType::Hull:
-      return Real(2) * shape.hull->inner_radius();
+      return Real(2) * (shape.hull->inner_radius() + shape.radius);
     case ShapeType::Compound:
       return composite_thickness(shape);
+    case ShapeType::Cylinder:
+      return Real(2) * (std::min(shape.half.x, shape.half.y) + shape.radius);
+    case ShapeType::Cone:
+      return Real(2) * (static_cast<Real>(cone_inner_radius(to_num(shape.half))) + shape.radius);
     case ShapeType::HalfSpace:
     case ShapeType::Mesh:
     case ShapeType::Heightfield:
@@ -211,6 +281,9 @@ Vec support(const CollisionShape& shape, Vec d) {
     case ShapeType::Heightfield:
     case ShapeType::Compound:
       return composite_support(shape, d);
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
+      return cast<Real>(support_of_round(shape, to_num(d)));
     case ShapeType::HalfSpace:
       break;
   }

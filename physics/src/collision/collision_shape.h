@@ -1,5 +1,5 @@
 // A shape as the collision routines see it: a core (point, segment, box, polyhedron, plane) grown
-// by a radius.
+// by a radius. Cylinder, cone: see shapes.h.
 #pragma once
 
 #include <memory>
@@ -15,25 +15,28 @@ enum class ShapeType : std::uint8_t {
   Box,
   Hull,
   HalfSpace,
+  Cylinder,
+  Cone,
   // Made of parts: pairs with these go through collide_parts().
   Mesh,
   Heightfield,
   Compound
 };
+inline constexpr int kShapeTypeCount = 7;  // of one part
 constexpr bool has_parts(ShapeType type) { return type >= ShapeType::Mesh; }
 // Surfaces have a front and no inside.
 constexpr bool is_surface(ShapeType type) {
   return type == ShapeType::Mesh || type == ShapeType::Heightfield;
 }
-inline constexpr int kShapeTypeCount = 5;  // of one part
 
 struct MeshData;
 struct CompoundData;
 
 struct CollisionShape {
   ShapeType type = ShapeType::Sphere;
-  Real radius = 0;      // [m] sphere, capsule; 0 for the others
-  Vec half{0, 0, 0};    // [m] box: half extents; capsule: (0, half_length, 0)
+  Real radius = 0;      // [m] of the ball the core is grown by; 0 for a half-space
+  Vec half{0, 0, 0};    // [m] half extents of the core of a box, capsule (0, half_length, 0),
+                        // cylinder or cone (radius, half_length, radius)
   Vec normal{0, 1, 0};  // half-space: outward unit normal
   Real offset = 0;      // [m] half-space
   // Shared geometry, kept alive by `owner`.
@@ -44,6 +47,11 @@ struct CollisionShape {
   Vec scale{1, 1, 1};  // mesh
   std::shared_ptr<const void> owner;
 };
+
+// Whether a core has a round side (cylinder or cone).
+constexpr bool is_curved(ShapeType type) {
+  return type == ShapeType::Cylinder || type == ShapeType::Cone;
+}
 
 // Precondition: the shape passed check_shape().
 CollisionShape make_collision_shape(const Shape& shape);

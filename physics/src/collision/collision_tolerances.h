@@ -57,6 +57,10 @@ inline constexpr Num kParallelCapsules = 0.01;
 // ... and if the angle between the axes is at most this [rad]: the surface of the second along the
 // normal is then its radius away to half a percent.
 inline constexpr Num kParallelTilt = 0.1;
+// Points where the grown surface of a rounded shape lies closer to the core's point than its radius
+// by more than this part of the radius are left out: at kParallelTilt a flat face misses half a
+// percent.
+inline constexpr Num kGrownMiss = 5e-3;
 
 // ---- rounding
 // ---------------------------------------------------------------------------------------
@@ -72,8 +76,35 @@ inline constexpr Num kAttained = 1e-6;
 // worse than 1e-5, that of a face or of two edges is not.
 inline constexpr Num kTouching = 1e-11;
 
+// ---- curved cores
+// ---------------------------------------------------------------------------------------
+
+// The polytope in which the depth of overlap is sought grows until its bounds agree to this part of
+// the half thickness; then the direction is refined to the end of the valley that it lies in. Two
+// valleys whose depths differ by less are not told apart.
+inline constexpr Num kDepthGap = 5e-4;
+// Points added to it at most. Boxes and flat ends take 5 to 15, deep round ones up to 60.
+inline constexpr int kDepthMaxIterations = 96;
+inline constexpr int kDepthMaxFaces = 2 * kDepthMaxIterations + 16;
+// A direction is refined by moving the shapes apart along it, to a clearance of this part of the
+// half thickness, and looking for their closest points there: far enough for an exact direction.
+inline constexpr Num kRefineClearance = 0.02;
+// Refinements at most; near the surface one or two are enough.
+inline constexpr int kMaxRefinements = 24;
+// Cores nearer than this part of their sizes get the direction of their closest points refined too:
+// that of a distance of 1e-6 is only good to 1e-9, and face normals are tried before it.
+inline constexpr Num kNearlyTouching = 1e-6;
+// A disc whose rim rises by more than kDeepestTie of the half thickness is tilted: its contact
+// points then follow its deepest point instead of being fixed to the body.
+
+// Steps of a ray towards a rounded surface; 4 to 8 are usual, a grazing ray halves what is left.
+inline constexpr int kMaxRaySteps = 96;
+
 // GJK stops when upper and lower bound of the squared distance agree to this part.
 inline constexpr Num kGjkGap = 1e-14;
+// The points that its simplex gives may miss the closest point by this part of the sizes; slivers
+// that miss by more are taken for one of their edges.
+inline constexpr Num kWitness = 1e-10;
 // Convergence takes some 5 to 20 supports; the bound only guards against a cycle from rounding.
 inline constexpr int kGjkMaxIterations = 96;
 

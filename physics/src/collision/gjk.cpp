@@ -80,4 +80,28 @@ NumVec reduce_to_closest(GjkSimplex& s) {
   return nearest.point;
 }
 
+void mend_weights(GjkSimplex& s, NumVec point, Num allowed) {
+  const auto miss = [&s, point](const Num(&weights)[4]) {
+    NumVec sum = -point;
+    for (int i = 0; i < s.count; ++i) sum += weights[i] * s.corners[i].w;
+    return length_squared(sum);
+  };
+  Num best = miss(s.weights);
+  if (!(best > allowed * allowed)) return;
+  for (int i = 0; i < s.count; ++i) {
+    const int k = (i + 1) % s.count;
+    const NumVec a = s.corners[i].w, d = s.corners[k].w - a;
+    const Num whole = length_squared(d);
+    const Num t = whole > Num(0) ? std::clamp(dot(point - a, d) / whole, Num(0), Num(1)) : Num(0);
+    Num weights[4] = {0, 0, 0, 0};
+    weights[i] = Num(1) - t;
+    weights[k] = t;
+    const Num here = miss(weights);
+    if (here < best) {
+      best = here;
+      std::copy(weights, weights + 4, s.weights);
+    }
+  }
+}
+
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -29,6 +29,10 @@ struct GjkResult {
 // inside.
 NumVec reduce_to_closest(GjkSimplex& simplex);
 
+// The weights of a sliver cancel badly, its closest point does not: where the weighted corners miss
+// `point` by more than `allowed` [m], they are replaced by those of the edge that comes nearest.
+void mend_weights(GjkSimplex& simplex, NumVec point, Num allowed);
+
 // `support_a(d)`: a farthest point of core A in direction d, likewise for B, in one frame. `guess`:
 // any vector from A to B. `scale` [m]: a size of the two cores, for the smallest distance told from
 // 0.
@@ -47,11 +51,14 @@ GjkResult gjk_distance(const SupportA& support_a, const SupportB& support_b, Num
   NumVec v = simplex.corners[0].w;
   const Num touching = kTouching * scale;
   Num squared = length_squared(v);
+  bool apart = false;  // some direction has shown room, whatever a sliver of a simplex says
   for (int iteration = 0; iteration < kGjkMaxIterations; ++iteration) {
     if (!(squared > touching * touching)) break;
     const GjkCorner next = corner_towards(v);
     // v . w / |v| is a lower bound of the distance.
-    if (squared - dot(v, next.w) <= kGjkGap * squared) break;
+    const Num along = dot(v, next.w);
+    if (squared - along <= kGjkGap * squared) break;
+    apart = apart || (along > Num(0) && along * along > touching * touching * squared);
     bool known = false;
     for (int i = 0; i < simplex.count; ++i) {
       const NumVec d = simplex.corners[i].w - next.w;
@@ -63,6 +70,10 @@ GjkResult gjk_distance(const SupportA& support_a, const SupportB& support_b, Num
     ++simplex.count;
     const NumVec closer = reduce_to_closest(simplex);
     if (simplex.count == 4) {
+      if (apart) {  // rounding: the origin cannot be inside
+        simplex = before;
+        break;
+      }
       squared = Num(0);
       v = {0, 0, 0};
       break;
@@ -75,6 +86,7 @@ GjkResult gjk_distance(const SupportA& support_a, const SupportB& support_b, Num
     v = closer;
     squared = closer_squared;
   }
+  if (simplex.count == 3 && squared > Num(0)) mend_weights(simplex, v, kWitness * scale);
   for (int i = 0; i < simplex.count; ++i) {
     result.on_a += simplex.weights[i] * simplex.corners[i].a;
     result.on_b += simplex.weights[i] * simplex.corners[i].b;

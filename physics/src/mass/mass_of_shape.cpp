@@ -13,17 +13,14 @@
 
 #include "collision/collision_shape.h"
 #include "mass/inertia_tensor.h"
+#include "mass/rounded_moments.h"
 #include "plumb/compound.h"
 #include "plumb/mass_properties.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace {
 
-struct Moments {
-  double volume = 0;                                 // [m^3]
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // [m^4] integral r dV from the reference
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // [m^5] integral r r^T dV from the reference
-};
+using Moments = detail::VolumeMoments;
 
 Moments moments_about(const HullGeometry& hull, const Eigen::Vector3d& reference) {
   Moments sum;
@@ -45,11 +42,27 @@ Moments moments_about(const HullGeometry& hull, const Eigen::Vector3d& reference
   return sum;
 }
 
-MassProperties of_hull(const HullGeometry& hull, double density) {
+MassProperties filled(const Moments& moments, double density) {
+  const Eigen::Vector3d center = moments.first / moments.volume;
+  MassProperties body;
+  body.mass = density * moments.volume;
+  body.center = center;
+  body.I_Bcm_B = density * detail::inertia_from_second_moments(
+                               moments.second - moments.volume * center * center.transpose());
+  return body;
+}
+
+MassProperties of_hull(const HullGeometry& hull, double rounding, double density) {
   const Eigen::Vector3d start = hull.vertices()[0].cast<double>();
   const Moments rough = moments_about(hull, start);
   const Eigen::Vector3d near_center = start + rough.first / rough.volume;
-  const Moments fine = moments_about(hull, near_center);
+  Moments fine = moments_about(hull, near_center);
+  if (rounding > 0) {
+    const Moments added = detail::moments_of_hull_rounding(hull, rounding, near_center);
+    fine.volume += added.volume;
+    fine.first += added.first;
+    fine.second += added.second;
+  }
   const Eigen::Vector3d rest = fine.first / fine.volume;  // what rounding left of the offset
   MassProperties body;
   body.mass = density * fine.volume;
@@ -84,6 +97,8 @@ MassProperties of_shape(const Shape& shape, double density) {
   }
   if (const auto* box = std::get_if<Box>(&shape)) {
     const Eigen::Vector3d half = box->half_extents.cast<double>();
+    const double rounding = static_cast<double>(box->rounding);
+    if (rounding > 0) return filled(detail::moments_of_rounded_box(half, rounding), density);
     return inertia_of::box(density * 8 * half.prod(), half);
   }
   if (const auto* capsule = std::get_if<Capsule>(&shape)) {
@@ -95,7 +110,27 @@ MassProperties of_shape(const Shape& shape, double density) {
   if (const auto* compound = std::get_if<Compound>(&shape)) {
     return of_compound(*compound->geometry, density);
   }
-  return of_hull(*std::get<ConvexHull>(shape).geometry, density);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    const double r = static_cast<double>(cylinder->radius);
+    const double h = static_cast<double>(cylinder->half_length);
+    const double rounding = static_cast<double>(cylinder->rounding);
+    if (!(rounding > 0)) return inertia_of::cylinder(density * kPi * r * r * 2 * h, r, 2 * h);
+    const detail::ProfilePoint profile[] = {{0, -h}, {r, -h}, {r, h}, {0, h}};
+    return filled(detail::moments_of_revolution(profile, rounding), density);
+  }
+  if (const auto* cone = std::get_if<Cone>(&shape)) {
+    const double r = static_cast<double>(cone->radius), h = static_cast<double>(cone->half_length);
+    const double rounding = static_cast<double>(cone->rounding);
+    if (!(rounding > 0)) {
+      MassProperties body = inertia_of::cone(density * kPi * r * r * 2 * h / 3, r, 2 * h);
+      body.center.y() -= h;  // from the base to the middle of the axis
+      return body;
+    }
+    const detail::ProfilePoint profile[] = {{0, -h}, {r, -h}, {0, h}};
+    return filled(detail::moments_of_revolution(profile, rounding), density);
+  }
+  const auto& hull = std::get<ConvexHull>(shape);
+  return of_hull(*hull.geometry, static_cast<double>(hull.rounding), density);
 }
 
 }  // namespace

@@ -102,9 +102,17 @@ void append_shape(std::vector<double>& out, const Shape& shape) {
     append_all(out, {as_number(sphere->radius)});
   } else if (const auto* box = std::get_if<Box>(&shape)) {
     append(out, box->half_extents);
+    append_all(out, {as_number(box->rounding)});
   } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
     append_all(out, {as_number(capsule->half_length), as_number(capsule->radius)});
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    append_all(out, {as_number(cylinder->half_length), as_number(cylinder->radius),
+                     as_number(cylinder->rounding)});
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    append_all(out,
+               {as_number(cone->half_length), as_number(cone->radius), as_number(cone->rounding)});
   } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
+    append_all(out, {as_number(hull->rounding)});
     const HullGeometry& geometry = *hull->geometry;
     append_all(out, {static_cast<double>(geometry.vertices().size())});
     for (const Vec3& v : geometry.vertices()) append(out, v);
@@ -178,13 +186,16 @@ Shape read_shape(NumberReader& in, bool& ok) {
   switch (in.word()) {
     case 0:
       return Sphere{in.real()};
-    case 1:
-      return Box{in.vector()};
+    case 1: {
+      const Vec3 half_extents = in.vector();
+      return Box{half_extents, in.real()};
+    }
     case 2: {
       const Real half_length = in.real();
       return Capsule{half_length, in.real()};
     }
     case 3: {
+      const Real rounding = in.real();
       std::vector<Vec3> vertices;
       for (std::uint32_t n = in.word(); n > 0 && in.ok(); --n) vertices.push_back(in.vector());
       std::vector<std::uint32_t> sizes, indices;
@@ -195,7 +206,7 @@ Shape read_shape(NumberReader& in, bool& ok) {
       if (!in.ok()) break;
       auto made = HullGeometry::create(vertices, sizes, indices);
       if (!made.status.ok()) break;
-      return ConvexHull{std::move(made.hull)};
+      return ConvexHull{std::move(made.hull), rounding};
     }
     case 4: {
       const Vec3 normal = in.vector();
@@ -215,6 +226,14 @@ Shape read_shape(NumberReader& in, bool& ok) {
       Compound compound;
       if (read_compound(in, compound)) return compound;
       break;
+    }
+    case 8: {
+      const Real half_length = in.real(), radius = in.real();
+      return Cylinder{half_length, radius, in.real()};
+    }
+    case 9: {
+      const Real half_length = in.real(), radius = in.real();
+      return Cone{half_length, radius, in.real()};
     }
     default:
       break;

@@ -10,6 +10,7 @@
 #include "collision/collide.h"
 #include "math/eigen_bridge.h"
 #include "world/inputs.h"
+#include "world/shape_numbers.h"
 #include "world/snapshot_geometry.h"
 #include "world/snapshot_table.h"
 #include "world/world_state.h"
@@ -60,11 +61,6 @@ void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentu
   t("inertia", I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
   t("user_data", i.user_data);
 }
-
-struct ShapeNumbers {
-  std::uint32_t type = 0, hull = kNone;
-  double n[4]{};
-};
 
 template <class Table>
 void visit_collider(Table& t, ColliderInfo& c, ShapeNumbers& shape, WorldAabb& box) {
@@ -165,60 +161,6 @@ bool restore_hulls(const Snapshot& in, std::vector<std::shared_ptr<const HullGeo
     at += size;
   }
   return at == numbers->reals.size();
-}
-
-ShapeNumbers numbers_of(const Shape& shape, std::vector<std::shared_ptr<const HullGeometry>>& hulls,
-                        GeometryTable& geometries) {
-  ShapeNumbers s;
-  s.type = static_cast<std::uint32_t>(shape.index());
-  const auto set = [&](double a, double b = 0, double c = 0, double d = 0) {
-    s.n[0] = a, s.n[1] = b, s.n[2] = c, s.n[3] = d;
-  };
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    set(static_cast<double>(sphere->radius));
-  } else if (const auto* box = std::get_if<Box>(&shape)) {
-    const Eigen::Vector3d h = box->half_extents.cast<double>();
-    set(h.x(), h.y(), h.z());
-  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    set(static_cast<double>(capsule->half_length), static_cast<double>(capsule->radius));
-  } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
-    std::size_t k = 0;
-    while (k < hulls.size() && hulls[k] != hull->geometry) ++k;
-    if (k == hulls.size()) hulls.push_back(hull->geometry);
-    s.hull = static_cast<std::uint32_t>(k);
-  } else if (const auto* space = std::get_if<HalfSpace>(&shape)) {
-    const Eigen::Vector3d n = space->normal.cast<double>();
-    set(n.x(), n.y(), n.z(), static_cast<double>(space->offset));
-  } else {
-    s.hull = geometries.add(shape, s.n);
-  }
-  return s;
-}
-
-bool shape_from(const ShapeNumbers& s,
-                const std::vector<std::shared_ptr<const HullGeometry>>& hulls,
-                const GeometryTable& geometries, Shape& out) {
-  const auto real = [&](int i) { return static_cast<Real>(s.n[i]); };
-  switch (s.type) {
-    case 0:
-      out = Sphere{real(0)};
-      return true;
-    case 1:
-      out = Box{Vec3(real(0), real(1), real(2))};
-      return true;
-    case 2:
-      out = Capsule{real(0), real(1)};
-      return true;
-    case 3:
-      if (s.hull >= hulls.size()) return false;
-      out = ConvexHull{hulls[s.hull]};
-      return true;
-    case 4:
-      out = HalfSpace{Vec3(real(0), real(1), real(2)), real(3)};
-      return true;
-    default:
-      return geometries.take(s.hull, s.type, s.n, out);
-  }
 }
 
 // Builds bodies from their table. Dense places are given anew; nothing depends on them.

@@ -27,21 +27,19 @@ std::uint32_t GeometryTable::add(const Shape& shape, double (&numbers)[4]) {
   return index;
 }
 
-void GeometryTable::save(Snapshot& out) const {
-  SnapshotColumn sizes, numbers;
-  sizes.name = "geometry.size";
-  sizes.type = SnapshotColumn::Type::Uint64;
-  numbers.name = "geometry.numbers";
+void GeometryTable::save(ColumnWriter& out) const {
+  std::vector<std::uint64_t> sizes;
+  std::vector<double> numbers, written;
   for (const Shape& shape : shapes_) {
     Collider carrier;
     carrier.shape = shape;
-    std::vector<double> written;
+    written.clear();
     append(written, carrier);
-    sizes.integers.push_back(written.size());
-    numbers.reals.insert(numbers.reals.end(), written.begin(), written.end());
+    sizes.push_back(written.size());
+    numbers.insert(numbers.end(), written.begin(), written.end());
   }
-  out.columns.push_back(std::move(sizes));
-  out.columns.push_back(std::move(numbers));
+  out.add("geometry", "size", 1, false).integers = std::move(sizes);
+  out.add("geometry", "numbers", 1, true).reals = std::move(numbers);
 }
 
 bool GeometryTable::restore(const Snapshot& in) {

@@ -6,6 +6,7 @@
 
 #include "plumb/shapes.h"
 #include "plumb/snapshot.h"
+#include "world/snapshot_table.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -13,7 +14,7 @@ class GeometryTable {
  public:
   // The number of the shape's geometry; what is the instance's own goes to `numbers` (mesh: scale).
   std::uint32_t add(const Shape& shape, double (&numbers)[4]);
-  void save(Snapshot& out) const;
+  void save(ColumnWriter& out) const;
 
   bool restore(const Snapshot& in);
   // The shape of a kind (its index in Shape) with a geometry read before. False if there is none.

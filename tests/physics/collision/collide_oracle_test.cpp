@@ -30,6 +30,8 @@ CollisionShape random_shape(Random& random, ShapeType type, double size) {
     case ShapeType::Hull:
       break;
     case ShapeType::HalfSpace:
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
       break;
   }
   const auto geometry =
