@@ -252,6 +252,25 @@ plumb_status plumb_add_capsule(plumb_world* world, plumb_body body, double half_
   });
 }
 
+plumb_status plumb_add_cylinder(plumb_world* world, plumb_body body, double half_length,
+                                double radius, double rounding, const plumb_surface* surface,
+                                plumb_collider* out) {
+  return guarded(world, [&] {
+    const plumb::Cylinder cylinder{static_cast<Real>(half_length), static_cast<Real>(radius),
+                                   static_cast<Real>(rounding)};
+    return add_collider(world, body, cylinder, surface, out);
+  });
+}
+
+plumb_status plumb_add_cone(plumb_world* world, plumb_body body, double half_length, double radius,
+                            double rounding, const plumb_surface* surface, plumb_collider* out) {
+  return guarded(world, [&] {
+    const plumb::Cone cone{static_cast<Real>(half_length), static_cast<Real>(radius),
+                           static_cast<Real>(rounding)};
+    return add_collider(world, body, cone, surface, out);
+  });
+}
+
 plumb_status plumb_step(plumb_world* world, double dt) {
   return guarded(world, [&] { return pass_on(world, world->world.step(dt).status); });
 }

@@ -89,6 +89,15 @@ inline Box cube(double half) { return box(half, half, half); }
 inline Capsule capsule(double half_length, double radius) {
   return Capsule{real(half_length), real(radius)};
 }
+inline Cylinder cylinder(double half_length, double radius, double rounding = 0) {
+  return Cylinder{real(half_length), real(radius), real(rounding)};
+}
+inline Cone cone(double half_length, double radius, double rounding = 0) {
+  return Cone{real(half_length), real(radius), real(rounding)};
+}
+inline Box rounded_box(double hx, double hy, double hz, double rounding) {
+  return Box{vec(hx, hy, hz), real(rounding)};
+}
 
 // A floor without end: solid where normal . x <= offset.
 inline BodyId add_floor(PhysicsWorld& world, const Material& surface = {},

@@ -91,7 +91,9 @@ Result<Template> make_template(const Scene& scene, const SceneBody& body, MeshSt
     if (!part.mesh.empty()) {
       const Result<std::size_t> mesh = meshes.index_of(part.mesh);
       if (!mesh.ok()) return Error{mesh.error()};
-      collider.shape = ConvexHull{meshes.at(mesh.value()).hull};
+      const auto* asked = std::get_if<ConvexHull>(&collider.shape);
+      const Real rounding = asked ? asked->rounding : Real(0);
+      collider.shape = ConvexHull{meshes.at(mesh.value()).hull, rounding};
       out.visuals.push_back({mesh.value(), collider.pose});
     }
     out.colliders.push_back(std::move(collider));

@@ -44,8 +44,9 @@ inline constexpr std::string_view kBody[] = {"name",
 inline constexpr std::string_view kMass[] = {"mass", "center", "inertia"};
 inline constexpr std::string_view kOrientation[] = {"quaternion", "euler_degrees", "axis_angle"};
 inline constexpr std::string_view kCollider[] = {
-    "shape",    "radius",      "half_extents", "half_length", "normal", "offset",        "mesh",
-    "position", "orientation", "material",     "density",     "layers", "collides_with", "sensor"};
+    "shape",    "radius",  "half_extents", "half_length",   "rounding",
+    "normal",   "offset",  "mesh",         "position",      "orientation",
+    "material", "density", "layers",       "collides_with", "sensor"};
 inline constexpr std::string_view kRepeat[] = {"count", "spacing", "jitter", "random_orientation",
                                                "seed"};
 
@@ -71,13 +72,17 @@ inline constexpr std::array<Named, 11> kAll{{{"scene", kScene},
 // Which of the collider's keys belong to which shape.
 struct ShapeKeys {
   std::string_view shape;
-  std::array<std::string_view, 2> keys;  // empty text: none
+  std::array<std::string_view, 3> keys;  // empty text: none
+  int needed;                            // so many of them, from the first
 };
-inline constexpr std::array<ShapeKeys, 5> kShapeKeys{{{"sphere", {"radius", ""}},
-                                                      {"box", {"half_extents", ""}},
-                                                      {"capsule", {"half_length", "radius"}},
-                                                      {"half_space", {"normal", "offset"}},
-                                                      {"mesh", {"mesh", ""}}}};
+inline constexpr std::array<ShapeKeys, 7> kShapeKeys{
+    {{"sphere", {"radius", "", ""}, 1},
+     {"box", {"half_extents", "rounding", ""}, 1},
+     {"capsule", {"half_length", "radius", ""}, 2},
+     {"half_space", {"normal", "offset", ""}, 2},
+     {"mesh", {"mesh", "rounding", ""}, 1},
+     {"cylinder", {"half_length", "radius", "rounding"}, 2},
+     {"cone", {"half_length", "radius", "rounding"}, 2}}};
 
 // Words with a fixed meaning, in the order of the enum they stand for.
 inline constexpr std::string_view kMotionTypes[] = {"static", "kinematic", "dynamic"};

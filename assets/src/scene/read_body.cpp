@@ -96,7 +96,7 @@ void refuse_foreign_keys(const ObjectReader& in, const ShapeKeys& own) {
       if (key.empty() || !in.has(key)) continue;
       if (std::find(own.keys.begin(), own.keys.end(), key) != own.keys.end()) continue;
       std::string wanted(own.keys[0]);
-      if (!own.keys[1].empty()) wanted += " and " + std::string(own.keys[1]);
+      if (own.needed > 1) wanted += " and " + std::string(own.keys[1]);
       in.problems().add(in.line_of(key),
                         in.what() + " is a " + std::string(own.shape) + ", which has no '" +
                             std::string(key) + "'",
@@ -109,10 +109,21 @@ void need(const ObjectReader& in, std::string_view key, const std::string& remed
   if (!in.has(key)) in.missing(key, remedy);
 }
 
+template <class Round>
+Round read_round(const ObjectReader& in, const char* length_remedy) {
+  Round shape;
+  need(in, "radius", "give the radius in metres");
+  need(in, "half_length", length_remedy);
+  in.number("radius", shape.radius, kPositive);
+  in.number("half_length", shape.half_length, kPositive);
+  in.number("rounding", shape.rounding, kNotNegative);
+  return shape;
+}
+
 void read_shape(const ObjectReader& in, const Scene& scene, SceneCollider& collider) {
-  constexpr std::string_view kShapes[] = {kShapeKeys[0].shape, kShapeKeys[1].shape,
-                                          kShapeKeys[2].shape, kShapeKeys[3].shape,
-                                          kShapeKeys[4].shape};
+  constexpr std::string_view kShapes[] = {
+      kShapeKeys[0].shape, kShapeKeys[1].shape, kShapeKeys[2].shape, kShapeKeys[3].shape,
+      kShapeKeys[4].shape, kShapeKeys[5].shape, kShapeKeys[6].shape};
   std::size_t which = 0;
   need(in, "shape", "use one of " + joined(kShapes));
   if (!in.choice("shape", kShapes, which)) return;
@@ -129,6 +140,7 @@ void read_shape(const ObjectReader& in, const Scene& scene, SceneCollider& colli
       Box box;
       need(in, "half_extents", "give half of the width, height and depth in metres");
       in.vector("half_extents", box.half_extents, kPositive);
+      in.number("rounding", box.rounding, kNotNegative);
       collider.collider.shape = box;
       break;
     }
@@ -152,7 +164,18 @@ void read_shape(const ObjectReader& in, const Scene& scene, SceneCollider& colli
       collider.collider.shape = half_space;
       break;
     }
+    case 5: {
+      collider.collider.shape = read_round<Cylinder>(in, "give half of the length in metres");
+      break;
+    }
+    case 6: {
+      collider.collider.shape = read_round<Cone>(in, "give half of the height in metres");
+      break;
+    }
     default: {
+      ConvexHull hull;  // its geometry comes from the mesh
+      in.number("rounding", hull.rounding, kNotNegative);
+      collider.collider.shape = hull;
       need(in, "mesh", "name one of the scene's meshes");
       if (!in.text("mesh", collider.mesh) || scene.find_mesh(collider.mesh)) break;
       std::vector<std::string_view> names;

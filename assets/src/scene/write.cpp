@@ -78,6 +78,10 @@ Json json_of(const SceneMesh& mesh) {
   return out;
 }
 
+void write_rounding(Real rounding, Json& out) {
+  if (rounding > Real(0)) out["rounding"] = tidy(rounding);
+}
+
 void write_shape(const Shape& shape, Json& out) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     out["shape"] = "sphere";
@@ -85,10 +89,21 @@ void write_shape(const Shape& shape, Json& out) {
   } else if (const auto* box = std::get_if<Box>(&shape)) {
     out["shape"] = "box";
     out["half_extents"] = list(box->half_extents);
+    write_rounding(box->rounding, out);
   } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
     out["shape"] = "capsule";
     out["half_length"] = tidy(capsule->half_length);
     out["radius"] = tidy(capsule->radius);
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    out["shape"] = "cylinder";
+    out["half_length"] = tidy(cylinder->half_length);
+    out["radius"] = tidy(cylinder->radius);
+    write_rounding(cylinder->rounding, out);
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    out["shape"] = "cone";
+    out["half_length"] = tidy(cone->half_length);
+    out["radius"] = tidy(cone->radius);
+    write_rounding(cone->rounding, out);
   } else if (const auto* half_space = std::get_if<HalfSpace>(&shape)) {
     out["shape"] = "half_space";
     out["normal"] = list(half_space->normal);
@@ -104,6 +119,8 @@ Json json_of(const SceneCollider& scene_collider) {
   } else {
     out["shape"] = "mesh";
     out["mesh"] = scene_collider.mesh;
+    if (const auto* hull = std::get_if<ConvexHull>(&collider.shape))
+      write_rounding(hull->rounding, out);
   }
   if (collider.pose.position != Vec3::Zero()) out["position"] = list(collider.pose.position);
   if (collider.pose.orientation.coeffs() != Quat::Identity().coeffs()) {

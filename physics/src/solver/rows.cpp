@@ -1,6 +1,7 @@
 // Rows: from a manifold and two bodies to the numbers that the solver iterates on.
 #include <cmath>
 
+#include "collision/rolling.h"
 #include "motion/body_motion.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -147,6 +148,17 @@ void make_block(ContactRow<Real>& row) {
   row.has_block = true;
 }
 
+// `arm`: of the contact from the body's centre of mass; `outward`: from the collider.
+Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, Vec arm,
+                     Vec outward) {
+  const ColliderInfo& collider = world.colliders.info[slot];
+  if (!is_curved(collider.shape.type)) return radius;
+  const Rotation& q_body = world.bodies.pose[world.bodies.info[collider.body].dense].q;
+  const Vec place = inverse_rotate(q_body, arm), normal = inverse_rotate(q_body, outward);
+  return rolling_radius(collider.shape, inverse_transform_point(collider.in_body, place),
+                        inverse_rotate(collider.in_body.q, normal));
+}
+
 void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t contact_index) {
   const WorldState& world = context.world;
   const BodyStore& bodies = world.bodies;
@@ -177,8 +189,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   for (int i = 0; i < row.count; ++i)
     gap += contact.manifold.points[i].separation - contact.advanced_gap;
   const Vec half_gap = (Real(0.5) * gap / static_cast<Real>(row.count)) * row.n;
-  row.surface_a = contact.radius_a;
-  row.surface_b = contact.radius_b;
+  row.surface_a = rolling_surface(world, pair.collider_a(), contact.radius_a, row.arm_a, row.n);
+  row.surface_b = rolling_surface(world, pair.collider_b(), contact.radius_b, row.arm_b, -row.n);
   row.core_a = row.arm_a - half_gap - row.surface_a * row.n;
   row.core_b = row.arm_b + half_gap + row.surface_b * row.n;
   if (!row.both_dynamic) {

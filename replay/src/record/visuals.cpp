@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "record/shape_mesh.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -30,12 +31,20 @@ Eigen::Vector3f sizes_of(double a, double b, double c) {
 double radius_of(const Shape& shape) {
   struct Visitor {
     double operator()(const Sphere& s) const { return s.radius; }
-    double operator()(const Box& b) const { return b.half_extents.template cast<double>().norm(); }
+    double operator()(const Box& b) const {
+      return b.half_extents.template cast<double>().norm() + double{b.rounding};
+    }
     double operator()(const Capsule& c) const { return double{c.half_length} + double{c.radius}; }
     double operator()(const ConvexHull& h) const {
       if (!h.geometry) return 0;
       return h.geometry->interior_point().template cast<double>().norm() +
-             double{h.geometry->outer_radius()};
+             double{h.geometry->outer_radius()} + double{h.rounding};
+    }
+    double operator()(const Cylinder& c) const {
+      return std::hypot(double{c.half_length}, double{c.radius}) + double{c.rounding};
+    }
+    double operator()(const Cone& c) const {
+      return std::hypot(double{c.half_length}, double{c.radius}) + double{c.rounding};
     }
     double operator()(const HalfSpace&) const { return 0; }
   };
@@ -55,7 +64,7 @@ bool towers(const Box& box, const LocalPose& X_BC, const BodyState& body,
                                  (body.pose.orientation * X_BC.position).template cast<double>();
   const Vec3 up_C = R_WC.conjugate() * extent.up.template cast<Real>();
   const double reach = double{up_C.cwiseAbs().dot(box.half_extents)};
-  return center.dot(extent.up) + reach > extent.top;
+  return center.dot(extent.up) + reach + double{box.rounding} > extent.top;
 }
 
 }  // namespace
@@ -106,6 +115,29 @@ void Visuals::show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh) {
   shown_as_[body] = std::move(mesh);
 }
 
+const VisualMesh* Visuals::shape_mesh(const Shape& shape) {
+  std::vector<double> key{static_cast<double>(shape.index())};
+  const auto add = [&key](auto... sizes) { (key.push_back(static_cast<double>(sizes)), ...); };
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    add(cylinder->half_length, cylinder->radius, cylinder->rounding);
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    add(cone->half_length, cone->radius, cone->rounding);
+  } else if (const auto* box = std::get_if<Box>(&shape)) {
+    const Vec3& h = box->half_extents;
+    if (!(box->rounding > Real(0))) return nullptr;
+    add(h.x(), h.y(), h.z(), box->rounding);
+  } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
+    if (!hull->geometry || !(hull->rounding > Real(0))) return nullptr;
+    kept_alive_.push_back(hull->geometry);
+    add(reinterpret_cast<std::uintptr_t>(hull->geometry.get()), hull->rounding);
+  } else {
+    return nullptr;
+  }
+  std::shared_ptr<const VisualMesh>& mesh = shape_meshes_[key];
+  if (!mesh) mesh = std::make_shared<const VisualMesh>(mesh_of_shape(shape).value());
+  return mesh.get();
+}
+
 MeshBatch& Visuals::mesh_batch(rrd::Writer& writer, const void* key, const VisualMesh& mesh) {
   const auto [found, is_new] = mesh_index_.try_emplace(key, meshes_.size());
   if (is_new) {
@@ -129,13 +161,25 @@ void Visuals::add_collider(rrd::Writer& writer, const Collider& collider, Placed
   const auto batch = [&](Primitive primitive) -> ShapeBatch& {
     return shapes_[batch_index(primitive, role)];
   };
-  if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) {
+  if (const VisualMesh* mesh = role == Role::Outline ? nullptr : shape_mesh(collider.shape)) {
+    mesh_batch(writer, mesh, *mesh).add_part(part);
+  } else if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) {
     const double r = sphere->radius;
     batch(Primitive::Sphere).add_part(part, sizes_of(r, r, r));
   } else if (const auto* box = std::get_if<Box>(&collider.shape)) {
-    batch(Primitive::Box).add_part(part, box->half_extents.template cast<float>());
+    const Vec3 grown = box->half_extents + Vec3::Constant(box->rounding);
+    batch(Primitive::Box).add_part(part, grown.template cast<float>());
   } else if (const auto* capsule = std::get_if<Capsule>(&collider.shape)) {
     batch(Primitive::Capsule).add_part(part, sizes_of(capsule->half_length, capsule->radius, 0));
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&collider.shape)) {
+    // Sensors are drawn as the outline of the box around them.
+    const double r = double{cylinder->radius} + double{cylinder->rounding};
+    const double h = double{cylinder->half_length} + double{cylinder->rounding};
+    batch(Primitive::Box).add_part(part, sizes_of(r, h, r));
+  } else if (const auto* cone = std::get_if<Cone>(&collider.shape)) {
+    const double r = double{cone->radius} + double{cone->rounding};
+    const double h = double{cone->half_length} + double{cone->rounding};
+    batch(Primitive::Box).add_part(part, sizes_of(r, h, r));
   } else if (const auto* hull = std::get_if<ConvexHull>(&collider.shape)) {
     if (!hull->geometry) return;
     const void* key = hull->geometry.get();

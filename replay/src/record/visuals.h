@@ -38,6 +38,8 @@ class Visuals {
  private:
   void add_collider(rrd::Writer& writer, const Collider& collider, PlacedPart part, Role role,
                     const SceneExtent& extent);
+  // The mesh of a shape that is no primitive, one for all colliders of the same sizes.
+  const VisualMesh* shape_mesh(const Shape& shape);
   MeshBatch& mesh_batch(rrd::Writer& writer, const void* key, const VisualMesh& mesh);
 
   std::vector<ShapeBatch> shapes_;  // primitive x role
@@ -45,6 +47,7 @@ class Visuals {
   std::vector<MeshBatch> meshes_;
   std::vector<std::shared_ptr<const void>> kept_alive_;  // so that no address is met twice
   std::map<BodyId, std::shared_ptr<const VisualMesh>> shown_as_;
+  std::map<std::vector<double>, std::shared_ptr<const VisualMesh>> shape_meshes_;  // by sizes
 };
 
 }  // namespace replay::detail
