@@ -34,21 +34,21 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
                      PartManifolds& out) {
   TriangleContact contact;
   const auto each = [&](auto&& touch) {
-    surface.query(box, [&](const SurfaceTriangle& t) {
+    surface.query(box, [&](SurfaceTriangle& t) {
       if (touch(t)) gather(out, on, t, contact);
     });
   };
   switch (on.shape.type) {
     case ShapeType::Sphere:
-      each([&](const SurfaceTriangle& t) { return touch_sphere(on, t, contact); });
+      each([&](SurfaceTriangle& t) { return touch_sphere(on, t, contact); });
       return;
     case ShapeType::Capsule:
-      each([&](const SurfaceTriangle& t) { return touch_capsule(on, t, contact); });
+      each([&](SurfaceTriangle& t) { return touch_capsule(on, t, contact); });
       return;
     case ShapeType::Box:
     case ShapeType::Hull: {
       const PlacedPolyhedron polyhedron(on.shape, on.R, on.p);
-      each([&](const SurfaceTriangle& t) { return touch_polyhedron(on, polyhedron, t, contact); });
+      each([&](SurfaceTriangle& t) { return touch_polyhedron(on, polyhedron, t, contact); });
       return;
     }
     case ShapeType::HalfSpace:
@@ -60,7 +60,7 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
 }
 
 void collide_surface(const Piece& surface, const Piece& convex, bool swapped, Real margin,
-                     PartManifolds& out) {
+                     bool held, PartManifolds& out) {
   const Placement s = to_placement(surface.placed), c = to_placement(convex.placed);
   const NumRotation to_surface = conjugate(s.q);
   const Placement at{rotate(to_surface, c.p - s.p), to_surface * c.q};
@@ -73,8 +73,15 @@ void collide_surface(const Piece& surface, const Piece& convex, bool swapped, Re
   const NumBox box = bounds_in(shape, at, static_cast<Num>(margin));
   out.group_count = 0;
   const auto run = [&](const auto& triangles) {
-    const ConvexOnSurface on{shape,     at.p,   at.q,     R, static_cast<Num>(margin),
-                             thickness, middle, triangles};
+    const ConvexOnSurface on{shape,
+                             at.p,
+                             at.q,
+                             R,
+                             static_cast<Num>(margin),
+                             thickness,
+                             middle,
+                             (held ? kBehindWhenHeld : kBehind) * thickness,
+                             triangles};
     touch_triangles(triangles, on, box, out);
   };
   if (surface.shape.type == ShapeType::Mesh) {
@@ -86,12 +93,12 @@ void collide_surface(const Piece& surface, const Piece& convex, bool swapped, Re
 }
 
 // Of two shapes without children. Appends to out.parts.
-void collide_pieces(const Piece& a, const Piece& b, Real margin, PartManifolds& out) {
+void collide_pieces(const Piece& a, const Piece& b, Real margin, bool held, PartManifolds& out) {
   const bool surface_a = is_surface(a.shape.type), surface_b = is_surface(b.shape.type);
   if (surface_a || surface_b) {
     const ShapeType other = surface_a ? b.shape.type : a.shape.type;
     if ((surface_a && surface_b) || other == ShapeType::HalfSpace) return;
-    collide_surface(surface_a ? a : b, surface_a ? b : a, surface_b, margin, out);
+    collide_surface(surface_a ? a : b, surface_a ? b : a, surface_b, margin, held, out);
     return;
   }
   Manifold manifold;
@@ -136,14 +143,14 @@ void each_piece(const CollisionShape& of, const Transform& x, const CollisionSha
 }  // namespace
 
 bool collide_parts(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
-                   const Transform& xb, Real margin, PartManifolds& out) {
+                   const Transform& xb, Real margin, PartManifolds& out, bool held) {
   out.parts.clear();
   std::vector<std::uint32_t> near_a, near_b;  // stay empty, without storage, but for compounds
   each_piece(a, xa, b, xb, margin, near_a, [&](std::uint32_t i, const Piece& piece_a) {
     each_piece(b, xb, piece_a.shape, piece_a.placed, margin, near_b,
                [&](std::uint32_t k, const Piece& piece_b) {
                  const std::size_t begin = out.parts.size();
-                 collide_pieces(piece_a, piece_b, margin, out);
+                 collide_pieces(piece_a, piece_b, margin, held, out);
                  for (std::size_t n = begin; n < out.parts.size(); ++n) {
                    out.parts[n].part = joint_part(i, k, out.parts[n].part);
                    out.parts[n].radius_a = piece_a.shape.radius;

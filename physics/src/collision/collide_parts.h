@@ -10,10 +10,10 @@ namespace plumb::inline PLUMB_ABI::detail {
 // All manifolds of a pair, of any two shapes: part 0 for two shapes without parts. Placements,
 // margin and signs as for collide(). Parts are in ascending order and keep their number while the
 // contact stays: the plane that is touched, whatever triangles it is made of; the edge or corner;
-// the child of a compound. Surfaces do not collide with surfaces or half-spaces. Returns whether
-// there is any.
+// the child of a compound. Surfaces do not collide with surfaces or half-spaces. `held`: the pair
+// had contacts in the last step. Returns whether there is any.
 bool collide_parts(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
-                   const Transform& xb, Real margin, PartManifolds& out);
+                   const Transform& xb, Real margin, PartManifolds& out, bool held = false);
 
 // The one with the deepest point.
 bool collide_deepest_part(const CollisionShape& a, const Transform& xa, const CollisionShape& b,

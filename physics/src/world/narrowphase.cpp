@@ -118,9 +118,10 @@ void collide_pair_of_parts(const WorldState& world, std::uint32_t index, const P
   static thread_local PartManifolds found;  // kept for its storage only
   Transform moved = xb;
   Vec advance{0, 0, 0};
+  const bool held = pair.contact_count > 0;
   const bool swept = find_first_touch(world, pair, a, xa, b, xb, moved, advance) &&
-                     collide_parts(a.shape, xa, b.shape, moved, margin, found);
-  if (!swept) collide_parts(a.shape, xa, b.shape, xb, margin, found);
+                     collide_parts(a.shape, xa, b.shape, moved, margin, found, held);
+  if (!swept) collide_parts(a.shape, xa, b.shape, xb, margin, found, held);
   const std::span<const Contact> before = contacts_of(pair, world.contacts);
   auto old = before.begin();
   for (const PartManifold& part : found.parts) {

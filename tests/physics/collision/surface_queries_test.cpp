@@ -172,7 +172,8 @@ bool meets_any(const oracle::Solid& s, const std::vector<std::array<V, 3>>& tria
   for (const auto& t : triangles) {
     const V n = (t[1] - t[0]).cross(t[2] - t[0]);
     for (const auto& [a, b] : s.edges) {
-      const V &p = s.vertices[static_cast<std::size_t>(a)], &q = s.vertices[static_cast<std::size_t>(b)];
+      const V &p = s.vertices[static_cast<std::size_t>(a)],
+              &q = s.vertices[static_cast<std::size_t>(b)];
       const double hp = n.dot(p - t[0]), hq = n.dot(q - t[0]);
       if (hp * hq >= 0) continue;
       const V x = p + hp / (hp - hq) * (q - p);
@@ -216,7 +217,8 @@ TEST(SurfaceDistance, IsThatOfTheNearestTriangle) {
       const Transform home{{0, 0, 0}, {0, 0, 0, 1}};
       const Proximity near = closest_points(shape, home, convex, placed);
       if (truth < 0.05) continue;
-      // What passes through a triangle has all its features away from it: then a corner lies behind.
+      // What passes through a triangle has all its features away from it: then a corner lies
+      // behind.
       if (near.distance == Real(0) && meets_any(solid, scene.triangles)) continue;
       const double scale = std::max(1.0, at.norm());
       EXPECT_NEAR(static_cast<double>(near.distance), truth, 64 * kEpsilon * scale);

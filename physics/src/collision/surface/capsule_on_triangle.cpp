@@ -148,13 +148,17 @@ struct CapsuleContact {
 
 }  // namespace
 
-bool touch_capsule(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out) {
+bool touch_capsule(const ConvexOnSurface& on, SurfaceTriangle& t, TriangleContact& out) {
   const NumVec half = on.R * to_num(on.shape.half);
   const Segment axis{on.p - half, on.p + half};
   const Num radius = on.shape.radius;
   const Num start = t.height(axis.start), end = t.height(axis.end);
-  if (std::min(start, end) > radius + on.margin || t.height(on.middle) < -kBehind * radius)
-    return false;
+  if (std::min(start, end) > radius + on.margin || t.height(on.middle) < -on.behind) return false;
+  const Closest closest = closest_of(t, axis);
+  const Num distance = std::sqrt(closest.squared);
+  // An axis that passes through is far from the border: only beside the triangle is this the end.
+  if (std::min(start, end) > Num(0) && !(distance - radius <= on.margin)) return false;
+  on.surface.complete(t);
   FacePolygon polygon;
   polygon_of(t, polygon);
   out.candidates.count = 0;
@@ -166,8 +170,6 @@ bool touch_capsule(const ConvexOnSurface& on, const SurfaceTriangle& t, Triangle
             : std::numeric_limits<Num>::infinity();
   if (above && lowest <= Num(0)) return contact.pierced(part);
 
-  const Closest closest = closest_of(t, axis);
-  const Num distance = std::sqrt(closest.squared);
   if (!(distance - radius <= on.margin)) return false;
   if (above && lowest <= distance + kFacePreference * on.thickness) return contact.face(part);
   const NumVec d = point_at(axis, closest.on_axis) - closest.on_triangle;

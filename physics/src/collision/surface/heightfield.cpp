@@ -122,6 +122,13 @@ void HeightfieldSurface::triangle(std::uint32_t t, SurfaceTriangle& out) const {
   out.corner_id[2] = second ? number(i + 1, k) : number(i + 1, k + 1);
   out.normal = normalized_or(doubled_area(out.corner[0], out.corner[1], out.corner[2]), {0, 1, 0});
   out.offset = dot(out.normal, p00);
+}
+
+void HeightfieldSurface::complete(SurfaceTriangle& out) const {
+  const std::uint32_t cell = out.id / 2, i = cell % cells_x_, k = cell / cells_x_;
+  const bool second = out.id % 2 != 0;
+  const std::uint32_t stride = field_.samples_x();
+  const auto number = [stride](std::uint32_t a, std::uint32_t b) { return b * stride + a; };
   // Edges are named after the sample at their low end: 0 along z, 1 along x, 2 the diagonal.
   out.edge_id[0] = second ? 3 * number(i, k) + 2 : 3 * number(i, k);
   out.edge_id[1] = second ? 3 * number(i + 1, k) : 3 * number(i, k + 1) + 1;
@@ -138,8 +145,9 @@ void HeightfieldSurface::triangle(std::uint32_t t, SurfaceTriangle& out) const {
       second ? Beyond{is_solid(ci + 1, ck), i + 2, k + 1}
              : Beyond{is_solid(ci, ck + 1), i + 1, k + 2},
       second ? Beyond{is_solid(ci, ck - 1), i, k - 1} : Beyond{true, i + 1, k}};
-  const Num noise = kFlatUlps * static_cast<Num>(std::numeric_limits<Real>::epsilon()) *
-                    std::max({std::abs(p00.y), std::abs(p01.y), std::abs(p10.y), std::abs(p11.y)});
+  const Num noise =
+      kFlatUlps * static_cast<Num>(std::numeric_limits<Real>::epsilon()) *
+      std::max({std::abs(out.corner[0].y), std::abs(out.corner[1].y), std::abs(out.corner[2].y)});
   for (int e = 0; e < 3; ++e) {
     out.beyond[e] = out.normal;
     out.kind[e] = EdgeKind::Open;

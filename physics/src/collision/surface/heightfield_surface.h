@@ -12,13 +12,14 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-class HeightfieldSurface final : public CornerCones {
+class HeightfieldSurface final : public SurfaceSource {
  public:
   explicit HeightfieldSurface(const HeightfieldGeometry& field)
       : field_(field), cells_x_(field.samples_x() - 1), cells_z_(field.samples_z() - 1) {}
 
   [[nodiscard]] NumBox bounds() const;
-  void triangle(std::uint32_t t, SurfaceTriangle& out) const;
+  void triangle(std::uint32_t t, SurfaceTriangle& out) const;  // without its neighbours
+  void complete(SurfaceTriangle& t) const override;
   [[nodiscard]] bool corner_allows(const SurfaceTriangle& t, int corner, NumVec n) const override;
 
   // visit(const SurfaceTriangle&), in ascending order, for those whose cells overlap the box.

@@ -49,14 +49,19 @@ void MeshSurface::triangle(std::uint32_t t, SurfaceTriangle& out) const {
   out.id = t;
   out.normal = normal_of(t);
   for (std::uint32_t k = 0; k < 3; ++k) {
-    const EdgeLink link = mesh_.edges[t][k];
     out.corner_id[k] = mesh_.corners[t][k];
     out.corner[k] = vertex(out.corner_id[k]);
-    out.kind[k] = link.kind();
-    out.edge_id[k] = edge_id(t, k);
-    out.beyond[k] = out.kind[k] == EdgeKind::Convex ? normal_of(link.triangle()) : out.normal;
   }
   out.offset = dot(out.normal, out.corner[0]);
+}
+
+void MeshSurface::complete(SurfaceTriangle& t) const {
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const EdgeLink link = mesh_.edges[t.id][k];
+    t.kind[k] = link.kind();
+    t.edge_id[k] = edge_id(t.id, k);
+    t.beyond[k] = t.kind[k] == EdgeKind::Convex ? normal_of(link.triangle()) : t.normal;
+  }
 }
 
 bool MeshSurface::corner_allows(const SurfaceTriangle& t, int corner, NumVec n) const {

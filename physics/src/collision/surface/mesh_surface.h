@@ -6,7 +6,7 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-class MeshSurface final : public CornerCones {
+class MeshSurface final : public SurfaceSource {
  public:
   MeshSurface(const MeshData& mesh, NumVec scale) : mesh_(mesh), scale_(scale) {
     const NumBox box = mesh.tree.bounds();
@@ -23,7 +23,8 @@ class MeshSurface final : public CornerCones {
   [[nodiscard]] Num rounding() const { return rounding_; }
   // Unit. A sliver's own would be noise: it takes that of its neighbour over the longest side.
   [[nodiscard]] NumVec normal_of(std::uint32_t t) const;
-  void triangle(std::uint32_t t, SurfaceTriangle& out) const;
+  void triangle(std::uint32_t t, SurfaceTriangle& out) const;  // without its neighbours
+  void complete(SurfaceTriangle& t) const override;
   [[nodiscard]] bool corner_allows(const SurfaceTriangle& t, int corner, NumVec n) const override;
 
   // visit(const SurfaceTriangle&) for those whose tree leaves overlap the box.

@@ -20,20 +20,21 @@ struct Axis {
 
 class Touch {
  public:
-  Touch(const ConvexOnSurface& on, const PlacedPolyhedron& p, const SurfaceTriangle& t,
+  Touch(const ConvexOnSurface& on, const PlacedPolyhedron& p, SurfaceTriangle& t,
         TriangleContact& out)
-      : on_(on), p_(p), t_(t), out_(out) {
-    polygon_of(t, polygon_);
-  }
+      : on_(on), p_(p), t_(t), out_(out) {}
 
   bool run() {
     Axis own;
     own.normal = t_.normal;
     own.separation = p_.lowest_along(t_.normal) - t_.offset;
     if (!(own.separation <= on_.margin)) return false;
-    if (t_.height(on_.middle) < -kBehind * on_.thickness) return false;
+    if (t_.height(on_.middle) < -on_.behind) return false;
+    if (is_parted()) return false;
+    on_.surface.complete(t_);
+    polygon_of(t_, polygon_);
     Axis faces, edges;
-    if (!best_face(faces)) return false;
+    best_face(faces);
     if (t_.has_sharp_edge()) best_edge(edges);
     if (!(edges.separation <= on_.margin)) return false;
     const Num best = std::max(own.separation, std::max(faces.separation, edges.separation));
@@ -72,23 +73,31 @@ class Touch {
   bool allows(SurfaceFeature feature, NumVec n) const {
     if (feature.kind == Kind::Face) return false;  // the triangle's own normal, or its back
     return feature.kind == Kind::Edge ? edge_allows(t_, feature.index, n)
-                                      : on_.cones.corner_allows(t_, feature.index, n);
+                                      : on_.surface.corner_allows(t_, feature.index, n);
   }
 
-  // Normals of the polyhedron's faces. False when one of them parts the shapes.
-  bool best_face(Axis& best) {
-    const bool sharp = t_.has_sharp_edge();
+  // Whether a face of the polyhedron parts the two; notes how near to that it is.
+  bool is_parted() {
+    for (int k = 0; k < p_.face_count(); ++k) {
+      const NumVec n = -p_.normal(k);
+      const Num along =
+          std::max(dot(n, t_.corner[0]), std::max(dot(n, t_.corner[1]), dot(n, t_.corner[2])));
+      nearest_exit_ = std::max(nearest_exit_, -p_.offset(k) - along);
+      if (nearest_exit_ > on_.margin) return true;
+    }
+    return false;
+  }
+
+  // Normals of the polyhedron's faces.
+  void best_face(Axis& best) {
+    if (!t_.has_sharp_edge()) return;
     for (int k = 0; k < p_.face_count(); ++k) {
       const NumVec n = -p_.normal(k);
       Num along;
       const SurfaceFeature feature = farthest(n, along);
       const Num s = -p_.offset(k) - along;
-      if (s > on_.margin) return false;
-      nearest_exit_ = std::max(nearest_exit_, s);
-      if (!sharp || !(s > best.separation) || !allows(feature, n)) continue;
-      best = {n, s, feature, k, -1};
+      if (s > best.separation && allows(feature, n)) best = {n, s, feature, k, -1};
     }
-    return true;
   }
 
   // Pairs of edges whose arcs cross on the Gauss map [Gregorius 2013]; those of the triangle reach
@@ -202,7 +211,7 @@ class Touch {
 
   const ConvexOnSurface& on_;
   const PlacedPolyhedron& p_;
-  const SurfaceTriangle& t_;
+  SurfaceTriangle& t_;
   TriangleContact& out_;
   FacePolygon polygon_;
   Num nearest_exit_ =
@@ -212,7 +221,7 @@ class Touch {
 }  // namespace
 
 bool touch_polyhedron(const ConvexOnSurface& on, const PlacedPolyhedron& polyhedron,
-                      const SurfaceTriangle& t, TriangleContact& out) {
+                      SurfaceTriangle& t, TriangleContact& out) {
   return Touch(on, polyhedron, t, out).run();
 }
 

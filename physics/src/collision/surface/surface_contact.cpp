@@ -48,7 +48,7 @@ bool allow_normal(const ConvexOnSurface& on, const SurfaceTriangle& t, SurfaceFe
     return true;
   }
   return feature.kind == SurfaceFeature::Kind::Edge ? edge_allows(t, feature.index, n)
-                                                    : on.cones.corner_allows(t, feature.index, n);
+                                                    : on.surface.corner_allows(t, feature.index, n);
 }
 
 void polygon_of(const SurfaceTriangle& t, FacePolygon& out) {
@@ -63,9 +63,9 @@ void polygon_of(const SurfaceTriangle& t, FacePolygon& out) {
   }
 }
 
-bool touch_sphere(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out) {
+bool touch_sphere(const ConvexOnSurface& on, SurfaceTriangle& t, TriangleContact& out) {
   const Num radius = on.shape.radius, height = t.height(on.p);
-  if (height > radius + on.margin || height < -kBehind * radius) return false;
+  if (height > radius + on.margin || height < -on.behind) return false;
   const ClosestOnTriangle closest = closest_on_triangle(t, on.p);
   const NumVec d = on.p - closest.point;
   NumVec n = t.normal;
@@ -76,6 +76,7 @@ bool touch_sphere(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleC
       length(d - height * t.normal) > kSnapAngle * std::abs(height)) {
     distance = length(d);
     if (!(height > Num(0)) || !(distance - radius <= on.margin)) return false;
+    on.surface.complete(t);
     n = (Num(1) / distance) * d;
     if (!allow_normal(on, t, closest.feature, n, out.of_face)) return false;
     out.feature = feature_part(t, closest.feature);

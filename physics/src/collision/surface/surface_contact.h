@@ -16,7 +16,8 @@ struct ConvexOnSurface {
   Num margin;     // [m]
   Num thickness;  // [m] half of the smallest
   NumVec middle;  // [m]
-  const CornerCones& cones;
+  Num behind;     // [m] how far behind a triangle the middle may lie
+  const SurfaceSource& surface;
 };
 
 // What one triangle gives.
@@ -29,10 +30,10 @@ struct TriangleContact {
 
 // Contact along the triangle's own normal, or along that of an edge or a corner if its cone holds
 // it. False where there is none.
-bool touch_sphere(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out);
-bool touch_capsule(const ConvexOnSurface& on, const SurfaceTriangle& t, TriangleContact& out);
+bool touch_sphere(const ConvexOnSurface& on, SurfaceTriangle& t, TriangleContact& out);
+bool touch_capsule(const ConvexOnSurface& on, SurfaceTriangle& t, TriangleContact& out);
 bool touch_polyhedron(const ConvexOnSurface& on, const PlacedPolyhedron& polyhedron,
-                      const SurfaceTriangle& t, TriangleContact& out);
+                      SurfaceTriangle& t, TriangleContact& out);
 
 // Names of edge and corner contacts, apart from those of faces (see part_of_plane).
 inline constexpr std::uint32_t kFeaturePart = 1U << 31;

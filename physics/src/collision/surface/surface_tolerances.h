@@ -27,6 +27,8 @@ inline constexpr Num kConeSlack = 3e-4;
 // How far behind a triangle the middle of a shape may lie and still be pushed out to the front [-],
 // as a fraction of the shape's half thickness. Farther behind, the shape is on the other side.
 inline constexpr Num kBehind = 0.5;
+// ... and of one that touched in the last step, which shows what side it came from.
+inline constexpr Num kBehindWhenHeld = 1;
 
 // A polyhedron deeper below a triangle's plane than kDeepShare of its half thickness [-] that is
 // out of the triangle within kExitShare of that depth [-] along one of its own faces touches the

@@ -17,11 +17,13 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
+// Made in two steps: the plane for all that come near, the neighbours for those that touch.
 struct SurfaceTriangle {
   std::uint32_t id;
   NumVec corner[3];  // [m] counter-clockwise from the front
   NumVec normal;     // unit
   Num offset;        // [m] normal . x of the plane
+  // --- from here on by SurfaceSource::complete() ---
   EdgeKind kind[3];  // of the edge from corner k to the next
   NumVec beyond[3];  // convex edges: normal of the neighbour
   std::uint32_t corner_id[3], edge_id[3];
@@ -61,15 +63,17 @@ EdgeKind kind_of_edge(NumVec v0, NumVec v1, NumVec normal_a, NumVec far_a, NumVe
 // triangle is the caller's.
 bool edge_allows(const SurfaceTriangle& t, int k, NumVec n);
 
-// What a surface tells of the triangles around a corner.
-class CornerCones {
+// What a surface tells of the neighbourhood of a triangle.
+class SurfaceSource {
  public:
+  // Fills in what a triangle knows of its neighbours.
+  virtual void complete(SurfaceTriangle& t) const = 0;
   // Whether the cone of a corner holds a unit vector: no edge that meets there rises along it.
   [[nodiscard]] virtual bool corner_allows(const SurfaceTriangle& t, int corner,
                                            NumVec n) const = 0;
 
  protected:
-  ~CornerCones() = default;
+  ~SurfaceSource() = default;
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail
