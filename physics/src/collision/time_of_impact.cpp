@@ -132,7 +132,10 @@ class Search {
     Look look = look_now();
     if (look.distance < search_.touching) {
       result_.touched = true;
-      goal = std::min(look.distance, search_.separation) - search_.allowance;
+      goal = search_.allowance > Num(0)
+                 ? std::min(look.distance - Num(2) * search_.tolerance,
+                            search_.separation - search_.allowance)
+                 : std::min(look.distance, search_.separation);
     }
     while (result_.advances < kMaxAdvances) {
       if (result_.touched && goal < search_.separation &&

@@ -35,9 +35,9 @@ struct ImpactSearch {
   // Signed distance at which the shapes count as having met [m]; negative: that much overlap.
   Num separation = 0;
   Num tolerance = 0;  // [m] > 0: a meeting is reported at up to this much more
-  // Shapes that are nearer than this when the search begins touch already [m]: they are let go on
-  // until they are deeper by `allowance` than they were (or than touching), or until they are
-  // apart.
+  // Shapes that are nearer than this when the search begins touch already [m]. They are let go on
+  // until they are deeper than the sought separation by `allowance`; or, if they are that deep
+  // already, until they get deeper at all (by twice the tolerance); or until they are apart.
   Num touching = 0;
   Num allowance = 0;  // [m] >= 0; 0: what touches at the beginning meets then
 };

@@ -60,6 +60,7 @@ struct BodyInfo {
   MotionType type = MotionType::Dynamic;
   MotionLocks locks;
   bool can_sleep = true;
+  bool continuous = false;  // stopped by dynamic bodies too
   std::uint32_t dense = 0;
   std::uint32_t island = kNone;  // sleeping island, or kNone
   Real rest_time = 0;            // [s] at rest without a break

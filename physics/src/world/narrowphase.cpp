@@ -210,7 +210,7 @@ void collide_pairs(WorldState& world) {
     world.touching.push_back(i);
     ++world.report.touching_pairs;
     world.report.contact_points += static_cast<std::uint32_t>(pair.manifold.count);
-    if (length_squared(pair.advance) > Real(0)) ++world.report.continuous;
+    if (length_squared(pair.advance) > Real(0)) ++world.report.looked_ahead;
     for (int k = 0; k < pair.manifold.count; ++k) {
       const Real depth = -pair.manifold.points[k].separation;
       world.report.largest_penetration =

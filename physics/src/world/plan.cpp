@@ -61,6 +61,8 @@ const char* name_of(Stage stage) {
       return "impacts";
     case Stage::Substeps:
       return "substeps";
+    case Stage::Continuous:
+      return "continuous";
     case Stage::Finalize:
       return "finalize";
     case Stage::Sleep:

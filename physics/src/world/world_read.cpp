@@ -135,6 +135,7 @@ RigidBody PhysicsWorld::body(BodyId body) const {
   out.angular_damping = force.angular_damping;
   out.gravity_scale = state_->bodies.mass[info.dense].gravity_scale;
   out.can_sleep = info.can_sleep;
+  out.continuous = info.continuous;
   out.starts_awake = info.type != MotionType::Dynamic || is_awake(body);
   out.user_data = info.user_data;
   return out;
