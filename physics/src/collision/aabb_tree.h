@@ -42,6 +42,12 @@ inline WorldAabb union_of(const WorldAabb& a, const WorldAabb& b) {
   return {min_each(a.lower, b.lower), max_each(a.upper, b.upper)};
 }
 
+// Distance of two boxes [m]; 0 when they overlap.
+inline PosReal distance_of(const WorldAabb& a, const WorldAabb& b) {
+  const PosVec gap = max_each(max_each(a.lower - b.upper, b.lower - a.upper), PosVec{0, 0, 0});
+  return length(gap);
+}
+
 // A ray prepared for many slab tests.
 class RayQuery {
  public:
@@ -121,6 +127,12 @@ class AabbTree {
   template <class Visit>
   void cast_box(const WorldAabb& box, PosVec direction, PosReal max_fraction, Visit&& visit) const;
 
+  // Calls visit(item, max_distance) -> new max distance (not above the old one; < 0 stops) for
+  // leaves whose box is no farther than max_distance [m] from the given one; of two branches the
+  // nearer one is followed first.
+  template <class Visit>
+  void nearest(const WorldAabb& box, PosReal max_distance, Visit&& visit) const;
+
  private:
   template <class BoxOf, class Visit>
   void walk_ray(const RayQuery& ray, PosReal max_fraction, BoxOf&& box_of, Visit&& visit) const;
@@ -174,6 +186,32 @@ void AabbTree::query(const WorldAabb& box, Visit&& visit) const {
     for (const std::int32_t child : at.child) {
       if (overlaps(node(child).box, box)) stack.push(child);
     }
+  }
+}
+
+template <class Visit>
+void AabbTree::nearest(const WorldAabb& box, PosReal max_distance, Visit&& visit) const {
+  struct Entry {
+    std::int32_t node;
+    PosReal distance;
+  };
+  if (root_ == kNull) return;
+  TraversalStack<Entry> stack;
+  stack.push({root_, distance_of(node(root_).box, box)});
+  while (!stack.empty()) {
+    const Entry entry = stack.pop();
+    if (!(entry.distance <= max_distance * RayQuery::kSlack)) continue;
+    const Node& at = node(entry.node);
+    if (at.is_leaf()) {
+      max_distance = visit(at.item, max_distance);
+      if (max_distance < PosReal(0)) return;
+      continue;
+    }
+    const Entry a{at.child[0], distance_of(node(at.child[0]).box, box)};
+    const Entry b{at.child[1], distance_of(node(at.child[1]).box, box)};
+    const bool b_is_nearer = b.distance < a.distance;
+    stack.push(b_is_nearer ? a : b);
+    stack.push(b_is_nearer ? b : a);
   }
 }
 

@@ -1,8 +1,7 @@
 #include "collision/time_of_impact.h"
 
-#include "collision/collide.h"
 #include "collision/core_support.h"
-#include "collision/gjk.h"
+#include "collision/shape_gap.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -48,22 +47,15 @@ class Mover {
 
   [[nodiscard]] bool is_plane() const { return swept_.shape.type == ShapeType::HalfSpace; }
   [[nodiscard]] const CollisionShape& shape() const { return swept_.shape; }
-  [[nodiscard]] NumVec plane_normal() const {
-    return rows_ * normalized_or(to_num(swept_.shape.normal), NumVec{0, 1, 0});
-  }
   [[nodiscard]] Num plane_offset(NumVec n) const {
     return dot(n, origin()) + static_cast<Num>(swept_.shape.offset);
   }
   [[nodiscard]] NumVec origin() const { return centre_ + arm_; }
-  [[nodiscard]] Num radius() const { return radius_; }
-  [[nodiscard]] Num size() const { return core_size_ + radius_; }
   [[nodiscard]] NumRotation rotation() const { return q_; }
-  [[nodiscard]] NumVec velocity() const { return velocity_; }
   // Farthest point of the core, from the body's centre.
   [[nodiscard]] NumVec from_centre(NumVec d) const {
     return rows_ * core_support(swept_.shape, transpose_times(rows_, d)) + arm_;
   }
-  [[nodiscard]] NumVec support(NumVec d) const { return centre_ + from_centre(d); }
 
   // At least the largest n . x over the shape after a further time u.
   [[nodiscard]] Num highest_after(NumVec n, Num u) const {
@@ -130,12 +122,12 @@ class Search {
     place(t);
     guess_ = b_.origin() - a_.origin();
     Look look = look_now();
+    result_.first_distance = look.distance;
     if (look.distance < search_.touching) {
       result_.touched = true;
-      goal = search_.allowance > Num(0)
-                 ? std::min(look.distance - Num(2) * search_.tolerance,
-                            search_.separation - search_.allowance)
-                 : std::min(look.distance, search_.separation);
+      goal = search_.allowance > Num(0) ? std::min(look.distance - Num(2) * search_.tolerance,
+                                                   search_.separation - search_.allowance)
+                                        : std::min(look.distance, search_.separation);
     }
     while (result_.advances < kMaxAdvances) {
       if (result_.touched && goal < search_.separation &&
@@ -190,46 +182,11 @@ class Search {
   // Signed distance, with an axis along which the room is just that (to rounding).
   Look look_now() {
     ++result_.looks;
-    if (a_.is_plane() || b_.is_plane()) {
-      const NumVec n = a_.is_plane() ? a_.plane_normal() : -b_.plane_normal();
-      const Num room = room_along(n);
-      const NumVec point = a_.is_plane() ? b_.support(-n) - (b_.radius() + Num(0.5) * room) * n
-                                         : a_.support(n) + (a_.radius() + Num(0.5) * room) * n;
-      return {room, n, point};
-    }
-    const NumVec origin = a_.origin();
-    const GjkResult cores = gjk_distance([&](NumVec d) { return a_.support(d) - origin; },
-                                         [&](NumVec d) { return b_.support(d) - origin; }, guess_,
-                                         a_.size() + b_.size());
-    if (cores.overlap) return look_inside(origin);
-    const NumVec n = cores.normal;
-    guess_ = n;
-    const Num distance = cores.distance - a_.radius() - b_.radius();
-    const NumVec on_a = cores.on_a + a_.radius() * n;
-    return {distance, n, origin + on_a + (Num(0.5) * distance) * n};
+    const Gap gap = gap_between({a_.shape(), a_.origin(), a_.rotation()},
+                                {b_.shape(), b_.origin(), b_.rotation()}, guess_);
+    guess_ = gap.normal;
+    return {gap.distance, gap.normal, Num(0.5) * (gap.on_a + gap.on_b)};
   }
-
-  // Cores that overlap: the deepest contact.
-  [[nodiscard]] Look look_inside(NumVec origin) const {
-    const auto real = [](NumRotation q) {
-      return Rotation{static_cast<Real>(q.x), static_cast<Real>(q.y), static_cast<Real>(q.z),
-                      static_cast<Real>(q.w)};
-    };
-    const Transform xa{{0, 0, 0}, real(a_.rotation())};
-    const Transform xb{cast<Real>(b_.origin() - origin), real(b_.rotation())};
-    Manifold manifold;
-    const Real margin = static_cast<Real>(std::min(a_.size(), b_.size()));
-    Look look{Num(0), guess_normal(), origin};
-    if (!collide(a_.shape(), xa, b_.shape(), xb, margin, manifold)) return look;
-    int deepest = 0;
-    for (int i = 1; i < manifold.count; ++i)
-      if (manifold.points[i].separation < manifold.points[deepest].separation) deepest = i;
-    look.distance = static_cast<Num>(manifold.points[deepest].separation);
-    look.normal = normalized_or(to_num(manifold.normal), guess_normal());
-    look.point = origin + to_num(manifold.points[deepest].position);
-    return look;
-  }
-  [[nodiscard]] NumVec guess_normal() const { return normalized_or(guess_, NumVec{0, 1, 0}); }
 
   // The largest u found up to `longest` with room >= goal throughout [0, u].
   [[nodiscard]] Num certified_advance(NumVec n, Num goal, Num longest) const {

@@ -56,6 +56,7 @@ struct Impact {
   NumVec normal{0, 1, 0};  // unit, from A to B, then
   NumVec point{0, 0, 0};   // [m] midway between the surfaces, then
   bool touched = false;    // nearer than `touching` at the beginning
+  Num first_distance = 0;  // [m] signed, at the beginning
   int looks = 0;           // how often the closest points were computed
   int advances = 0;
 };

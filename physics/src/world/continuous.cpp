@@ -115,7 +115,7 @@ bool moved_far(const WorldState& world, std::uint32_t dense) {
   const Real limit = tolerance::kContinuousFraction * info.size;
   // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
   if (!(Real(2) * (path + spin * info.radius * info.radius) > limit * limit)) return false;
-  if (info.colliders.empty() || info.disabled) return false;
+  if (!(limit > Real(0)) || info.disabled) return false;
   return std::sqrt(path) + std::sqrt(spin) * turning_radius(world, info) > limit;
 }
 

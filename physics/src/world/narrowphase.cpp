@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision/collide.h"
+#include "world/body_sweep.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -57,20 +58,24 @@ void carry_impulses(Pair& pair, const Manifold& old, Real thickness) {
   }
 }
 
-// How far the surfaces of a pair may approach within one step [m].
+// How far the surfaces of a slow pair may approach within one step [m]. What may come nearer than
+// that is swept, or else stopped after the step (continuous.cpp): a contact made across a wide gap
+// has long arms and a normal of the wrong moment, and throws bodies about.
 Real reach_of(const WorldState& world, const Pair& pair) {
   const BodyInfo& a = world.bodies.info[pair.body_a];
   const BodyInfo& b = world.bodies.info[pair.body_b];
   const BodyVelocity& va = world.bodies.velocity[a.dense];
   const BodyVelocity& vb = world.bodies.velocity[b.dense];
   const Real speed = length(vb.v - va.v) + length(va.w) * a.radius + length(vb.w) * b.radius;
+  const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Real g = static_cast<Real>(world.settings.gravity.norm());
-  return world.dt * (speed + world.dt * g);
+  return std::min(world.dt * speed, tolerance::kSweptFraction * thickness) +
+         world.dt * world.dt * g;
 }
 
-// Fast pairs: conservative advancement along the relative path of the step (without rotation) to
-// the first touch [Mirtich 1996], and the manifold there. Returns false when the pair is slow, or
-// when nothing meets; the ordinary manifold serves then.
+// Fast pairs: the manifold is that of the first touch along the relative path of the step (without
+// rotation), so that they meet, and bounce, within the step. Returns false when the pair is slow,
+// touches already, or does not meet; the ordinary manifold serves then.
 bool collide_swept(const WorldState& world, Pair& pair, const ColliderInfo& a, const Transform& xa,
                    const ColliderInfo& b, const Transform& xb, Real margin) {
   const BodyInfo& info_a = world.bodies.info[pair.body_a];
@@ -79,24 +84,27 @@ bool collide_swept(const WorldState& world, Pair& pair, const ColliderInfo& a, c
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Vec path = world.dt * v;
   if (length(path) <= tolerance::kSweptFraction * thickness) return false;
+  const Sweep still = resting_at(to_num(xa.p), {0, 0, 0, 1});
+  Sweep moving = resting_at(to_num(xb.p), {0, 0, 0, 1});
+  moving.travel = to_num(path);
+  const SweptShape in_a{a.shape, {0, 0, 0}, normalized(to_num(xa.q)), still};
+  const SweptShape in_b{b.shape, {0, 0, 0}, normalized(to_num(xb.q)), moving};
+  // What only brushes past (the next of two flush tiles, under a body that slides) does not count.
+  const Num slop = static_cast<Num>(pair.slop);
+  ImpactSearch search;
+  search.separation = -static_cast<Num>(tolerance::kContinuousOverlapSlops) * slop;
+  search.tolerance = slop;
+  Impact meeting = time_of_impact(in_a, in_b, search);
+  if (meeting.status == ImpactStatus::Apart || !(meeting.time > Num(0))) return false;
+  search.separation = 0;
+  search.tolerance = static_cast<Num>(tolerance::kSweepTolerance) * slop;
+  search.end = meeting.time;
+  const Impact touch = time_of_impact(in_a, in_b, search);
+  if (touch.status != ImpactStatus::Apart) meeting = touch;
+  if (!(meeting.time > Num(0)) || !(dot(meeting.normal, moving.travel) < Num(0))) return false;
+  const Real t = static_cast<Real>(meeting.time);
   Transform moved = xb;
-  Real t = 0;
-  Vec normal{0, 1, 0};
-  bool meets = false;
-  for (int i = 0; i < tolerance::kSweepSteps; ++i) {
-    const Proximity near = closest_points(a.shape, xa, b.shape, moved);
-    if (near.distance <= tolerance::kSweepTolerance * pair.slop) {
-      meets = i > 0;  // overlapping from the start: the ordinary manifold knows more
-      normal = near.normal;
-      break;
-    }
-    const Real closing = -dot(near.normal, path);  // [m] per whole step
-    if (!(closing > Real(0))) return false;
-    t += near.distance / closing;
-    if (t > Real(1)) return false;
-    moved.p = xb.p + t * path;
-  }
-  if (!meets || !(dot(normal, path) < Real(0))) return false;
+  moved.p = xb.p + t * path;
   Manifold manifold;
   if (!collide(a.shape, xa, b.shape, moved, margin, manifold)) return false;
   pair.manifold = manifold;
