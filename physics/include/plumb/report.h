@@ -18,6 +18,7 @@ enum class Stage : std::uint8_t {
   Rows,
   Impacts,
   Substeps,
+  Continuous,
   Finalize,
   Sleep,
   Count,
@@ -39,7 +40,8 @@ struct StepReport {
   std::uint32_t islands = 0;  // awake ones; 0 when sleeping is off
   std::uint32_t colors = 0;
   std::uint32_t impacts = 0;       // bounces handled at their own time within the step
-  std::uint32_t continuous = 0;    // pairs kept apart only by the look-ahead for fast bodies
+  std::uint32_t looked_ahead = 0;  // contacts of fast pairs, made where they will first touch
+  std::uint32_t continuous = 0;    // bodies that would have passed something and were stopped at it
   double largest_penetration = 0;  // [m] >= 0, at the start of the step
 
   // Bodies whose state became non-finite: put back to their last valid pose, disabled, reported.

@@ -37,6 +37,9 @@ struct RigidBody {
   Real linear_damping = Real(0);   // [1/s] >= 0: v' = -c v, exact at any time step
   Real angular_damping = Real(0);  // [1/s] >= 0: L' = -c L
   Real gravity_scale = Real(1);    // [-] finite
+  // A body that moves far in a step, compared with its thickness, is stopped where it meets static
+  // and kinematic ones. With this it is stopped by dynamic ones too.
+  bool continuous = false;
   bool can_sleep = true;
   bool starts_awake = true;
   std::uint64_t user_data = 0;  // the engine's own (an entity), never looked at

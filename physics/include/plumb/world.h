@@ -21,6 +21,7 @@
 #include "plumb/job_system.h"
 #include "plumb/observer.h"
 #include "plumb/plan.h"
+#include "plumb/queries.h"
 #include "plumb/report.h"
 #include "plumb/rigid_body.h"
 #include "plumb/settings.h"
@@ -31,14 +32,6 @@ namespace plumb::inline PLUMB_ABI {
 namespace detail {
 struct WorldState;
 }
-
-struct RayHitResult {
-  ColliderId collider;
-  BodyId body;
-  Pos3 point = Pos3::Zero();    // [m] world
-  Vec3 normal = Vec3::UnitY();  // unit, outward
-  Real fraction = 0;            // 0..1 along the ray
-};
 
 class PhysicsWorld {
  public:
@@ -71,6 +64,9 @@ class PhysicsWorld {
   Status set_pose(BodyId body, const Pose& pose);                  // teleport
   Status set_linear_velocity(BodyId body, const Vec3& velocity);   // [m/s]
   Status set_angular_velocity(BodyId body, const Vec3& velocity);  // [rad/s]
+  // Gives a kinematic body the velocities that take it to the target within a time dt [s] > 0, by
+  // the shorter turn. It keeps them after that.
+  Status move_kinematic(BodyId body, const Pose& target, double dt);
   Status set_mass(BodyId body, const MassProperties& properties);
   Status set_awake(BodyId body, bool awake);  // putting to sleep takes the whole island
 
@@ -117,13 +113,54 @@ class PhysicsWorld {
   [[nodiscard]] EnergyReport energy() const;
 
   // --- queries ---------------------------------------------------------------------------------
-  // The nearest hit of the segment from origin to origin + translation [m] with colliders whose
-  // layers meet `layers`. Sensors are passed by.
+  // What holds for all of them stands in plumb/queries.h. Lists are cleared first.
+  [[nodiscard]] std::optional<RayHitResult> cast_ray(const Pos3& origin, const Vec3& translation,
+                                                     const QueryFilter& filter) const;
   [[nodiscard]] std::optional<RayHitResult> cast_ray(const Pos3& origin, const Vec3& translation,
                                                      std::uint32_t layers = 0xffffffffu) const;
-  // Colliders whose bounds meet the box, in order of their index.
+  // Whether anything is hit: the cheapest question (line of sight).
+  [[nodiscard]] bool ray_is_blocked(const Pos3& origin, const Vec3& translation,
+                                    const QueryFilter& filter = {}) const;
+  // Where the ray enters each collider, in order.
+  void cast_ray_all(const Pos3& origin, const Vec3& translation, std::vector<RayHitResult>& out,
+                    const QueryFilter& filter = {}) const;
+
+  [[nodiscard]] std::optional<ShapeHitResult> cast_shape(const ShapeCast& cast,
+                                                         const QueryFilter& filter = {}) const;
+  // Where the shape would meet each collider if it went through the others, in order.
+  void cast_shape_all(const ShapeCast& cast, std::vector<ShapeHitResult>& out,
+                      const QueryFilter& filter = {}) const;
+  // Colliders that overlap or touch the shape, in order of their id.
+  void overlap_shape(const Shape& shape, const Pose& pose, std::vector<ColliderId>& out,
+                     const QueryFilter& filter = {}) const;
+
+  // The collider nearest to a point or shape, no farther than max_distance [m] >= 0.
+  [[nodiscard]] std::optional<ClosestPointResult> closest_point(
+      const Pos3& point, Real max_distance, const QueryFilter& filter = {}) const;
+  [[nodiscard]] std::optional<ClosestPointResult> closest_point(
+      const Shape& shape, const Pose& pose, Real max_distance,
+      const QueryFilter& filter = {}) const;
+  // All of them within that distance, nearest first.
+  void closest_points(const Pos3& point, Real max_distance, std::vector<ClosestPointResult>& out,
+                      const QueryFilter& filter = {}) const;
+  void closest_points(const Shape& shape, const Pose& pose, Real max_distance,
+                      std::vector<ClosestPointResult>& out, const QueryFilter& filter = {}) const;
+
+  // Colliders whose own bounds meet the box, in order of their id.
   void overlap_bounds(const Bounds& box, std::vector<ColliderId>& out,
-                      std::uint32_t layers = 0xffffffffu) const;
+                      std::uint32_t layers = 0xffffffffu) const;  // sensors too
+  void overlap_bounds(const Bounds& box, std::vector<ColliderId>& out,
+                      const QueryFilter& filter) const;
+
+  // Many at once: hits[i] answers question i, with a null collider where there is none. The spans
+  // have one length, or nothing is done. jobs: threads to run on, null for the calling one.
+  Status cast_rays(std::span<const Ray> rays, std::span<RayHitResult> hits,
+                   const QueryFilter& filter = {}, JobSystem* jobs = nullptr) const;
+  Status cast_shapes(std::span<const ShapeCast> casts, std::span<ShapeHitResult> hits,
+                     const QueryFilter& filter = {}, JobSystem* jobs = nullptr) const;
+  Status closest_points(std::span<const Pos3> points, Real max_distance,
+                        std::span<ClosestPointResult> nearest, const QueryFilter& filter = {},
+                        JobSystem* jobs = nullptr) const;
 
   // --- replay ----------------------------------------------------------------------------------
   [[nodiscard]] Snapshot save() const;

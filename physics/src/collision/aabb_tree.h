@@ -42,6 +42,12 @@ inline WorldAabb union_of(const WorldAabb& a, const WorldAabb& b) {
   return {min_each(a.lower, b.lower), max_each(a.upper, b.upper)};
 }
 
+// Distance of two boxes [m]; 0 when they overlap.
+inline PosReal distance_of(const WorldAabb& a, const WorldAabb& b) {
+  const PosVec gap = max_each(max_each(a.lower - b.upper, b.lower - a.upper), PosVec{0, 0, 0});
+  return length(gap);
+}
+
 // A ray prepared for many slab tests.
 class RayQuery {
  public:
@@ -117,7 +123,20 @@ class AabbTree {
   template <class Visit>
   void cast_ray(PosVec origin, PosVec direction, PosReal max_fraction, Visit&& visit) const;
 
+  // The same for a box that moves by t direction from where it is given.
+  template <class Visit>
+  void cast_box(const WorldAabb& box, PosVec direction, PosReal max_fraction, Visit&& visit) const;
+
+  // Calls visit(item, max_distance) -> new max distance (not above the old one; < 0 stops) for
+  // leaves whose box is no farther than max_distance [m] from the given one; of two branches the
+  // nearer one is followed first.
+  template <class Visit>
+  void nearest(const WorldAabb& box, PosReal max_distance, Visit&& visit) const;
+
  private:
+  template <class BoxOf, class Visit>
+  void walk_ray(const RayQuery& ray, PosReal max_fraction, BoxOf&& box_of, Visit&& visit) const;
+
   struct Node {
     WorldAabb box;
     std::int32_t parent = kNull;  // the next free node while the node is free
@@ -171,15 +190,41 @@ void AabbTree::query(const WorldAabb& box, Visit&& visit) const {
 }
 
 template <class Visit>
-void AabbTree::cast_ray(PosVec origin, PosVec direction, PosReal max_fraction,
+void AabbTree::nearest(const WorldAabb& box, PosReal max_distance, Visit&& visit) const {
+  struct Entry {
+    std::int32_t node;
+    PosReal distance;
+  };
+  if (root_ == kNull) return;
+  TraversalStack<Entry> stack;
+  stack.push({root_, distance_of(node(root_).box, box)});
+  while (!stack.empty()) {
+    const Entry entry = stack.pop();
+    if (!(entry.distance <= max_distance * RayQuery::kSlack)) continue;
+    const Node& at = node(entry.node);
+    if (at.is_leaf()) {
+      max_distance = visit(at.item, max_distance);
+      if (max_distance < PosReal(0)) return;
+      continue;
+    }
+    const Entry a{at.child[0], distance_of(node(at.child[0]).box, box)};
+    const Entry b{at.child[1], distance_of(node(at.child[1]).box, box)};
+    const bool b_is_nearer = b.distance < a.distance;
+    stack.push(b_is_nearer ? a : b);
+    stack.push(b_is_nearer ? b : a);
+  }
+}
+
+// box_of(box): what the ray has to meet in place of a node's box.
+template <class BoxOf, class Visit>
+void AabbTree::walk_ray(const RayQuery& ray, PosReal max_fraction, BoxOf&& box_of,
                         Visit&& visit) const {
   struct Entry {
     std::int32_t node;
     PosReal fraction;
   };
-  const RayQuery ray(origin, direction);
   PosReal at_root;
-  if (root_ == kNull || !ray.meets(node(root_).box, max_fraction, at_root)) return;
+  if (root_ == kNull || !ray.meets(box_of(node(root_).box), max_fraction, at_root)) return;
   TraversalStack<Entry> stack;
   stack.push({root_, at_root});
   while (!stack.empty()) {
@@ -192,13 +237,37 @@ void AabbTree::cast_ray(PosVec origin, PosVec direction, PosReal max_fraction,
       continue;
     }
     std::array<PosReal, 2> fraction{};
-    const bool first = ray.meets(node(at.child[0]).box, max_fraction, fraction[0]);
-    const bool second = ray.meets(node(at.child[1]).box, max_fraction, fraction[1]);
+    const bool first = ray.meets(box_of(node(at.child[0]).box), max_fraction, fraction[0]);
+    const bool second = ray.meets(box_of(node(at.child[1]).box), max_fraction, fraction[1]);
     const bool second_is_nearer = fraction[1] < fraction[0];
     if (first && second_is_nearer) stack.push({at.child[0], fraction[0]});
     if (second) stack.push({at.child[1], fraction[1]});
     if (first && !second_is_nearer) stack.push({at.child[0], fraction[0]});
   }
+}
+
+template <class Visit>
+void AabbTree::cast_ray(PosVec origin, PosVec direction, PosReal max_fraction,
+                        Visit&& visit) const {
+  walk_ray(
+      RayQuery(origin, direction), max_fraction,
+      [](const WorldAabb& box) -> const WorldAabb& { return box; }, visit);
+}
+
+template <class Visit>
+void AabbTree::cast_box(const WorldAabb& box, PosVec direction, PosReal max_fraction,
+                        Visit&& visit) const {
+  const PosVec centre = PosReal(0.5) * (box.lower + box.upper);
+  // Rounding of the centre must not make the box smaller.
+  constexpr PosReal kRounding = 4 * std::numeric_limits<PosReal>::epsilon();
+  const PosVec reach = max_each(box.upper - centre, centre - box.lower) +
+                       kRounding * max_each(absolute(box.lower), absolute(box.upper));
+  walk_ray(
+      RayQuery(centre, direction), max_fraction,
+      [reach](const WorldAabb& node_box) {
+        return WorldAabb{node_box.lower - reach, node_box.upper + reach};
+      },
+      visit);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -163,24 +163,31 @@ Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
 
 }  // namespace
 
+bool cast_ray(const CollisionShape& shape, NumRotation q, NumVec origin, NumVec direction,
+              Num max_fraction, NumRayHit& hit) {
+  const NumRotation to_shape = conjugate(q);
+  const Hit found = cast_shape(shape, {rotate(to_shape, origin), rotate(to_shape, direction)});
+  if (found.outcome == Outcome::Miss) return false;
+  if (found.outcome == Outcome::Inside) {
+    hit = {0, normalized_or(-direction, NumVec{0, 1, 0})};
+    return true;
+  }
+  if (!(found.fraction <= max_fraction)) return false;
+  hit = {found.fraction, normalized_or(rotate(q, found.normal), NumVec{0, 1, 0})};
+  return true;
+}
+
 bool cast_ray(const CollisionShape& shape, const Transform& placement, Vec origin, Vec direction,
               Real max_fraction, RayHit& hit) {
   if (has_parts(shape.type))
     return cast_ray_parts(shape, placement, origin, direction, max_fraction, hit);
   const NumRotation q =
       normalized(NumRotation{placement.q.x, placement.q.y, placement.q.z, placement.q.w});
-  const NumRotation to_shape = conjugate(q);
-  const Ray ray{rotate(to_shape, to_num(origin) - to_num(placement.p)),
-                rotate(to_shape, to_num(direction))};
-  const Hit found = cast_shape(shape, ray);
-  if (found.outcome == Outcome::Miss) return false;
-  if (found.outcome == Outcome::Inside) {
-    hit = {0, cast<Real>(normalized_or(-to_num(direction), NumVec{0, 1, 0}))};
-    return true;
-  }
-  if (!(found.fraction <= static_cast<Num>(max_fraction))) return false;
-  hit = {static_cast<Real>(found.fraction),
-         cast<Real>(normalized_or(rotate(q, found.normal), NumVec{0, 1, 0}))};
+  NumRayHit found;
+  if (!cast_ray(shape, q, to_num(origin) - to_num(placement.p), to_num(direction),
+                static_cast<Num>(max_fraction), found))
+    return false;
+  hit = {static_cast<Real>(found.fraction), cast<Real>(found.normal)};
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collision/collision_shape.h"
+#include "collision/collision_tolerances.h"
 #include "collision/manifold.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -30,5 +31,13 @@ struct RayHit {
 };
 bool cast_ray(const CollisionShape& shape, const Transform& placement, Vec origin, Vec direction,
               Real max_fraction, RayHit& hit);
+
+// The same in double precision, the origin relative to the shape.
+struct NumRayHit {
+  Num fraction;
+  NumVec normal;  // unit, outward
+};
+bool cast_ray(const CollisionShape& shape, NumRotation q, NumVec origin, NumVec direction,
+              Num max_fraction, NumRayHit& hit);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

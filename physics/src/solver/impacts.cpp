@@ -326,9 +326,11 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
     const Point& p = points[i];
     impulse += p.l_n;
     middle += (Real(1) / static_cast<Real>(count)) * (row.body_a != 0 ? p.ra : p.rb);
-    row.points[p.index].impulse_sum += p.l_n;
-    row.points[p.index].friction1_sum += p.l_1;
-    row.points[p.index].friction2_sum += p.l_2;
+    // Two spheres meet along a normal of their own; what is reported is in the row's axes.
+    const Vec given = p.l_n * n + p.l_1 * t1 + p.l_2 * t2;
+    row.points[p.index].impulse_sum += dot(row.n, given);
+    row.points[p.index].friction1_sum += dot(row.t1, given);
+    row.points[p.index].friction2_sum += dot(row.t2, given);
   }
   const std::uint32_t seen_from = row.body_a != 0 ? row.body_a : row.body_b;
   const Vec moved =

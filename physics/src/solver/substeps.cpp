@@ -234,7 +234,9 @@ void fly(WorldState& world, std::uint32_t i) {
   turn_freely(world.settings.rotation, mass, q, L, dt);
   half_kick();
   velocity.w = angular_velocity_of(mass, q, L);
-  if (is_finite(q)) world.bodies.pose[i].q = q;
+  if (!is_finite(q)) return;
+  delta.dq = q * conjugate(world.bodies.pose[i].q);  // for the continuous stage
+  world.bodies.pose[i].q = q;
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ struct BodyInfo {  // what states are read by comes first
   MotionType type = MotionType::Dynamic;
   MotionLocks locks;
   bool can_sleep = true;
+  bool continuous = false;  // stopped by dynamic bodies too
   std::uint32_t dense = 0;
   Vec center_B{0, 0, 0};         // centre of mass in B
   Rotation R_BP{0, 0, 0, 1};     // principal axes in B

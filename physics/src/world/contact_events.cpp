@@ -72,21 +72,27 @@ void note_hits(WorldState& world) {
     if (pair.was_touching || row.approach_speed <= tolerance::kBounceCutResting * row.cut_unit)
       continue;
     HitEvent hit;
+    // The manifold lies midway in the gap; they met on the side that did not move to the other.
+    const bool b_yields = world.bodies.info[pair.body_b].type == MotionType::Dynamic;
+    const Real side = pair.relative_to_b ? Real(-0.5) : (b_yields ? Real(0) : Real(0.5));
     Vec place{0, 0, 0};
     Real impulse = 0;
     for (int i = 0; i < row.count; ++i) {
+      const ManifoldPoint& point = contact.manifold.points[i];
+      const Real gap = point.separation - contact.advanced_gap;
       impulse += row.points[i].impulse_sum;
-      place += row.points[i].impulse_sum * contact.manifold.points[i].position;
+      place += row.points[i].impulse_sum * (point.position + (side * gap) * row.n);
     }
     if (!(impulse > Real(0))) continue;
+    place = (Real(1) / impulse) * place;
+    if (pair.relative_to_b) place += contact.advance;  // B has gone so far until it met A
     const std::uint32_t reference =
         world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
     hit.a = world.colliders.id(pair.collider_a());
     hit.b = world.colliders.id(pair.collider_b());
     hit.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
     hit.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
-    hit.point = to_public_position(world.bodies.pose[reference].x +
-                                   cast<PosReal>((Real(1) / impulse) * place));
+    hit.point = to_public_position(world.bodies.pose[reference].x + cast<PosReal>(place));
     hit.normal = to_public(row.n);
     hit.approach_speed = row.approach_speed;
     hit.impulse = impulse;

@@ -1,8 +1,8 @@
 // Inputs as numbers. Layouts (x3: three numbers; u64: low and high 32 bits):
 //
 //   body       type, position x3, orientation xyzw x4, v x3, w x3, has mass [mass], six locks,
-//              linear damping, angular damping, gravity scale, can sleep, starts awake, user data
-//              u64
+//              linear damping, angular damping, gravity scale, can sleep, starts awake,
+//              continuous, user data u64
 //   mass       mass, centre x3, inertia xx yy zz xy xz yz
 //   collider   shape, position x3, orientation x4, friction, restitution, two rules, layers,
 //              collides with, density, is sensor, user data u64
@@ -280,7 +280,7 @@ void append(std::vector<double>& out, const RigidBody& body) {
     append_all(out, {lock ? 1.0 : 0.0});
   append_all(out, {as_number(body.linear_damping), as_number(body.angular_damping),
                    as_number(body.gravity_scale), body.can_sleep ? 1.0 : 0.0,
-                   body.starts_awake ? 1.0 : 0.0});
+                   body.starts_awake ? 1.0 : 0.0, body.continuous ? 1.0 : 0.0});
   append_long(out, body.user_data);
 }
 void append(std::vector<double>& out, const Collider& collider) {
@@ -361,6 +361,7 @@ RigidBody NumberReader::body() {
   body.gravity_scale = real();
   body.can_sleep = flag();
   body.starts_awake = flag();
+  body.continuous = flag();
   body.user_data = long_word();
   return body;
 }

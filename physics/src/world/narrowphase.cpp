@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision/collide_parts.h"
+#include "world/body_sweep.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -55,20 +56,69 @@ void carry_impulses(Contact& contact, const Contact& old, Real thickness) {
   }
 }
 
-// How far the surfaces of a pair may approach within one step [m].
+// How far the surfaces of a slow pair may approach within one step [m]. What may come nearer than
+// that is swept, or else stopped after the step (continuous.cpp): a contact made across a wide gap
+// has long arms and a normal of the wrong moment, and throws bodies about.
 Real reach_of(const WorldState& world, const Pair& pair) {
   const BodyInfo& a = world.bodies.info[pair.body_a];
   const BodyInfo& b = world.bodies.info[pair.body_b];
   const BodyVelocity& va = world.bodies.velocity[a.dense];
   const BodyVelocity& vb = world.bodies.velocity[b.dense];
   const Real speed = length(vb.v - va.v) + length(va.w) * a.radius + length(vb.w) * b.radius;
+  const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Real g = static_cast<Real>(world.settings.gravity.norm());
-  return world.dt * (speed + world.dt * g);
+  return std::min(world.dt * speed, tolerance::kSweptFraction * thickness) +
+         world.dt * world.dt * g;
 }
 
-// Fast pairs: conservative advancement along the relative path of the step (without rotation) to
-// the first touch [Mirtich 1996]. Returns false when the pair is slow, or when nothing meets; the
-// ordinary manifold serves then. `advance` [m]: how far B is then along, seen from A.
+// How far along the relative path of the step [0, 1] two shapes meet, without rotation; negative if
+// they do not, or touch already. With parts: conservative advancement [Mirtich 1996].
+Num first_touch_of_parts(const Pair& pair, const ColliderInfo& a, const Transform& xa,
+                         const ColliderInfo& b, const Transform& xb, Vec path) {
+  Transform moved = xb;
+  Real t = 0;
+  for (int i = 0; i < tolerance::kSweepSteps; ++i) {
+    const Proximity near = closest_points(a.shape, xa, b.shape, moved);
+    const Real closing = -dot(near.normal, path);  // [m] per whole step
+    if (!(closing > Real(0))) return -1;
+    // Overlapping from the start: the ordinary manifold knows more.
+    if (near.distance <= tolerance::kSweepTolerance * pair.slop)
+      return i > 0 ? static_cast<Num>(t) : Num(-1);
+    t += near.distance / closing;
+    if (t > Real(1)) return -1;
+    moved.p = xb.p + t * path;
+  }
+  return -1;
+}
+
+Num first_touch(const Pair& pair, const ColliderInfo& a, const Transform& xa, const ColliderInfo& b,
+                const Transform& xb, Vec path) {
+  if (has_parts(a.shape.type) || has_parts(b.shape.type))
+    return first_touch_of_parts(pair, a, xa, b, xb, path);
+  const Sweep still = resting_at(to_num(xa.p), {0, 0, 0, 1});
+  Sweep moving = resting_at(to_num(xb.p), {0, 0, 0, 1});
+  moving.travel = to_num(path);
+  const SweptShape in_a{a.shape, {0, 0, 0}, normalized(to_num(xa.q)), still};
+  const SweptShape in_b{b.shape, {0, 0, 0}, normalized(to_num(xb.q)), moving};
+  // What only brushes past (the next of two flush tiles, under a body that slides) does not count.
+  const Num slop = static_cast<Num>(pair.slop);
+  ImpactSearch search;
+  search.separation = -static_cast<Num>(tolerance::kContinuousOverlapSlops) * slop;
+  search.tolerance = slop;
+  Impact meeting = time_of_impact(in_a, in_b, search);
+  if (meeting.status == ImpactStatus::Apart || !(meeting.time > Num(0))) return -1;
+  search.separation = 0;
+  search.tolerance = static_cast<Num>(tolerance::kSweepTolerance) * slop;
+  search.end = meeting.time;
+  const Impact touch = time_of_impact(in_a, in_b, search);
+  if (touch.status != ImpactStatus::Apart) meeting = touch;
+  return dot(meeting.normal, moving.travel) < Num(0) ? meeting.time : Num(-1);
+}
+
+// Fast pairs: their manifold is that of the first touch along the relative path of the step, so
+// that they meet, and bounce, within the step. Returns false when the pair is slow, touches
+// already, or does not meet; the ordinary manifold serves then. `advance` [m]: how far B is then
+// along, seen from A.
 bool find_first_touch(const WorldState& world, const Pair& pair, const ColliderInfo& a,
                       const Transform& xa, const ColliderInfo& b, const Transform& xb,
                       Transform& moved, Vec& advance) {
@@ -78,25 +128,12 @@ bool find_first_touch(const WorldState& world, const Pair& pair, const ColliderI
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Vec path = world.dt * v;
   if (length(path) <= tolerance::kSweptFraction * thickness) return false;
+  const Num t = first_touch(pair, a, xa, b, xb, path);
+  if (!(t > Num(0))) return false;
+  advance = static_cast<Real>(t) * path;
   moved = xb;
-  Real t = 0;
-  Vec normal{0, 1, 0};
-  bool meets = false;
-  for (int i = 0; i < tolerance::kSweepSteps; ++i) {
-    const Proximity near = closest_points(a.shape, xa, b.shape, moved);
-    if (near.distance <= tolerance::kSweepTolerance * pair.slop) {
-      meets = i > 0;  // overlapping from the start: the ordinary manifold knows more
-      normal = near.normal;
-      break;
-    }
-    const Real closing = -dot(near.normal, path);  // [m] per whole step
-    if (!(closing > Real(0))) return false;
-    t += near.distance / closing;
-    if (t > Real(1)) return false;
-    moved.p = xb.p + t * path;
-  }
-  advance = t * path;
-  return meets && dot(normal, path) < Real(0);
+  moved.p = xb.p + advance;
+  return true;
 }
 
 // The manifold of the moment of first touch, told as of the step's start.
@@ -251,7 +288,7 @@ void report_contacts(WorldState& world) {
   world.deep_overlap = false;
   for (const Contact& contact : world.contacts) {
     report.contact_points += static_cast<std::uint32_t>(contact.manifold.count);
-    if (length_squared(contact.advance) > Real(0)) ++report.continuous;
+    if (length_squared(contact.advance) > Real(0)) ++report.looked_ahead;
     Real depth = 0;
     for (int k = 0; k < contact.manifold.count; ++k)
       depth = std::max(depth, -contact.manifold.points[k].separation);

@@ -61,6 +61,8 @@ const char* name_of(Stage stage) {
       return "impacts";
     case Stage::Substeps:
       return "substeps";
+    case Stage::Continuous:
+      return "continuous";
     case Stage::Finalize:
       return "finalize";
     case Stage::Sleep:
@@ -184,7 +186,8 @@ StepPlan PhysicsWorld::plan() const {
          t.bouncing > 0 ? std::to_string(t.bouncing) + " colliders bounce"
                         : "no collider has restitution");
   decide(PlanItem::Continuous, t.awake > 0,
-         "contacts look one step ahead of " + std::to_string(t.awake) + " awake bodies");
+         "contacts look ahead of " + std::to_string(t.awake) +
+             " awake bodies; those that move far in a step are followed along their path");
   decide(PlanItem::Sensors, t.sensors > 0, std::to_string(t.sensors) + " colliders are sensors");
   decide(PlanItem::Sleeping, world.settings.sleeping,
          world.settings.sleeping

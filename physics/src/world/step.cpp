@@ -37,6 +37,7 @@ void run_stages(WorldState& world, double dt) {
   stage(Stage::Coloring, color_contacts);
   stage(Stage::Rows, build_rows);
   stage(Stage::Substeps, run_substeps);
+  stage(Stage::Continuous, stop_fast_bodies);
   stage(Stage::Finalize, finalize_bodies);
   stage(Stage::Sleep, sleep_islands);
   std::swap(world.published, world.gathering);

@@ -56,10 +56,20 @@ inline constexpr int kMaxImpactPasses = 64;
 // A pair that moves more than this fraction of the smaller thickness in a step is swept [-]: its
 // manifold is taken where the surfaces first meet, so that nothing thin is passed unseen.
 inline constexpr Real kSweptFraction = Real(0.25);
-// Advances of a sweep [-]; each at least halves what a sphere's sweep still misses.
-inline constexpr int kSweepSteps = 32;
 // Surfaces this near count as met [-], as a fraction of the slop.
 inline constexpr Real kSweepTolerance = Real(0.5);
+
+// A body that moves by more than this fraction of its thickness in a step is followed along its
+// path after the step [-]: what moves less cannot get its middle past anything unseen.
+inline constexpr Real kContinuousFraction = Real(0.25);
+// It is stopped where it overlaps what it meets by this many slops [-]. More than resting contacts
+// sink in, so that a body that slides fast over the seam of two flush boxes does not stop at it:
+// the shapes are followed with a slightly smaller core.
+inline constexpr Real kContinuousOverlapSlops = Real(4);
+// Bodies nearer than this many slops at the step's start are in contact already [-], which is the
+// contact solver's business, until they get deeper by this fraction of the smaller thickness [-].
+inline constexpr Real kContinuousTouchSlops = Real(4);
+inline constexpr Real kContinuousAllowance = Real(0.125);
 
 // A body counts as being at rest below this fraction of sqrt(g d) [-], d its size: the speed it
 // would have after falling 1e-4 d. 0.014 sqrt(9.81 * 1) = 4.4 cm/s for a 1 m body.
@@ -74,6 +84,8 @@ inline constexpr Real kLoadedFraction = Real(1e-6);
 // Bodies per chunk of a parallel loop [-]: 256 records of 32 bytes are 8 kB, no shared cache line.
 inline constexpr unsigned kBodyGrain = 256;
 inline constexpr unsigned kPairGrain = 64;
+// A search along a path takes microseconds: few in a chunk.
+inline constexpr unsigned kSweepGrain = 4;
 inline constexpr unsigned kRowGrain = 64;
 
 }  // namespace plumb::inline PLUMB_ABI::detail::tolerance

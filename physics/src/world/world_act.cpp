@@ -1,6 +1,9 @@
 // Acting on bodies: forces, impulses, velocities, poses.
+#include <cmath>
+
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
+#include "world/body_sweep.h"
 #include "world/inputs.h"
 #include "world/validate.h"
 
@@ -214,6 +217,30 @@ Status PhysicsWorld::set_linear_velocity(BodyId body, const Vec3& velocity) {
                                          k.linear_y ? Real(0) : velocity.y(),
                                          k.linear_z ? Real(0) : velocity.z()};
   return {};
+}
+
+Status PhysicsWorld::move_kinematic(BodyId body, const Pose& target, double dt) {
+  WorldState& world = *state_;
+  if (world.stepping) return detail::inside_step();
+  if (!is_valid(body)) return detail::stale_body();
+  if (const Status status = detail::check_pose(target); !status) return status;
+  if (!std::isfinite(dt) || !(dt > 0))
+    return {StatusCode::OutOfRange, "dt must be finite and positive [s]"};
+  const detail::BodyInfo& info = world.bodies.info[body.index];
+  if (info.type != MotionType::Kinematic)
+    return {StatusCode::WrongMotionType, "only kinematic bodies are moved to a target"};
+  const detail::BodyPose& pose = world.bodies.pose[info.dense];
+  const detail::NumVec way =
+      detail::cast<detail::Num>(detail::to_inner_position(target.position) - pose.x);
+  const detail::NumRotation to = normalized(detail::to_num(detail::to_inner(target.orientation)));
+  const detail::NumVec turn =
+      detail::turn_between(normalized(detail::to_num(pose.q)), to, detail::NumVec{0, 0, 0});
+  const Vec3 v = detail::to_public(detail::cast<Real>((1 / dt) * way));
+  const Vec3 w = detail::to_public(detail::cast<Real>((1 / dt) * turn));
+  if (!v.allFinite() || !w.allFinite())
+    return {StatusCode::OutOfRange, "the target is too far for so short a time"};
+  if (const Status status = set_linear_velocity(body, v); !status) return status;
+  return set_angular_velocity(body, w);
 }
 
 Status PhysicsWorld::set_angular_velocity(BodyId body, const Vec3& velocity) {

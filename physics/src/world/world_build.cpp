@@ -55,6 +55,7 @@ Created<BodyId> PhysicsWorld::create_body(const RigidBody& body) {
   info.type = body.type;
   info.locks = body.locks;
   info.can_sleep = body.can_sleep;
+  info.continuous = body.continuous;
   info.user_data = body.user_data;
   if (body.mass.has_value()) {
     info.has_own_mass = true;

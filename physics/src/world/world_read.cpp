@@ -1,7 +1,4 @@
-// Reading a world: states, contacts, energy, queries.
-#include <algorithm>
-
-#include "collision/collide.h"
+// Reading a world: states, contacts, energy. Queries: world_queries.cpp.
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
 #include "world/world_state.h"
@@ -153,6 +150,7 @@ RigidBody PhysicsWorld::body(BodyId body) const {
   out.angular_damping = force.angular_damping;
   out.gravity_scale = state_->bodies.mass[info.dense].gravity_scale;
   out.can_sleep = info.can_sleep;
+  out.continuous = info.continuous;
   out.starts_awake = info.type != MotionType::Dynamic || is_awake(body);
   out.user_data = info.user_data;
   return out;
@@ -218,68 +216,6 @@ EnergyReport PhysicsWorld::energy() const {
     sum.angular_momentum += L + mass * x.cross(v);
   }
   return sum;
-}
-
-std::optional<RayHitResult> PhysicsWorld::cast_ray(const Pos3& origin, const Vec3& translation,
-                                                   std::uint32_t layers) const {
-  if (!origin.allFinite() || !translation.allFinite()) return std::nullopt;
-  const detail::WorldState& world = *state_;
-  const detail::PosVec start = detail::to_inner_position(origin);
-  const detail::Vec path = detail::to_inner(translation);
-  std::optional<RayHitResult> nearest;
-  const auto visit = [&](std::uint32_t slot, PosReal max_fraction) -> PosReal {
-    const detail::ColliderInfo& collider = world.colliders.info[slot];
-    if (collider.component.is_sensor || (collider.component.filter.layers & layers) == 0)
-      return max_fraction;
-    const detail::BodyPose& pose = world.bodies.pose[world.bodies.info[collider.body].dense];
-    // Relative to the shape, so that single precision holds far from the world's origin.
-    const detail::PosVec center =
-        pose.x + detail::cast<PosReal>(rotate(pose.q, collider.in_body.p));
-    const detail::Transform placed{{0, 0, 0}, pose.q * collider.in_body.q};
-    detail::RayHit hit;
-    if (!detail::cast_ray(collider.shape, placed, detail::cast<Real>(start - center), path,
-                          static_cast<Real>(max_fraction), hit))
-      return max_fraction;
-    // Of two at the same distance the smaller index wins, whatever the order of the tree.
-    if (nearest.has_value() && hit.fraction == nearest->fraction && nearest->collider.index < slot)
-      return max_fraction;
-    RayHitResult result;
-    result.collider = world.colliders.id(slot);
-    result.body = {collider.body, world.bodies.info[collider.body].generation};
-    result.fraction = hit.fraction;
-    result.normal = detail::to_public(hit.normal);
-    result.point = detail::to_public_position(start + detail::cast<PosReal>(hit.fraction * path));
-    nearest = result;
-    return static_cast<PosReal>(hit.fraction) > PosReal(0) ? static_cast<PosReal>(hit.fraction)
-                                                           : max_fraction;
-  };
-  world.static_tree.cast_ray(start, detail::cast<PosReal>(path), PosReal(1), visit);
-  world.moving_tree.cast_ray(
-      start, detail::cast<PosReal>(path),
-      nearest.has_value() ? static_cast<PosReal>(nearest->fraction) : PosReal(1), visit);
-  return nearest;
-}
-
-void PhysicsWorld::overlap_bounds(const Bounds& box, std::vector<ColliderId>& out,
-                                  std::uint32_t layers) const {
-  out.clear();
-  if (!box.lower.allFinite() || !box.upper.allFinite()) return;
-  const detail::WorldState& world = *state_;
-  const detail::WorldAabb sought{detail::to_inner_position(box.lower),
-                                 detail::to_inner_position(box.upper)};
-  const auto visit = [&](std::uint32_t slot) {
-    const detail::ColliderInfo& collider = world.colliders.info[slot];
-    if ((collider.component.filter.layers & layers) == 0) return;
-    const detail::BodyPose& pose = world.bodies.pose[world.bodies.info[collider.body].dense];
-    const detail::Transform placed{rotate(pose.q, collider.in_body.p), pose.q * collider.in_body.q};
-    const detail::Aabb tight = bounds_of(collider.shape, placed);
-    const detail::WorldAabb bounds{pose.x + detail::cast<PosReal>(tight.lower),
-                                   pose.x + detail::cast<PosReal>(tight.upper)};
-    if (overlaps(sought, bounds)) out.push_back(world.colliders.id(slot));
-  };
-  world.static_tree.query(sought, visit);
-  world.moving_tree.query(sought, visit);
-  std::sort(out.begin(), out.end());
 }
 
 }  // namespace plumb::inline PLUMB_ABI

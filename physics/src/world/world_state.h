@@ -104,6 +104,7 @@ struct WorldState {
   std::vector<std::vector<Contact>> contacts_by_chunk;
   std::vector<Contact> new_contacts;
   std::vector<std::uint32_t> bodies_to_wake;
+  std::vector<std::vector<std::uint32_t>> fast_by_chunk;  // bodies that moved far
   std::vector<std::uint32_t> query_list;  // collider slots whose pairs must be sought
   std::vector<std::uint32_t> touched;     // body slots that somebody acted on since the last step
 
@@ -144,6 +145,7 @@ void build_rows(WorldState& world);
 // Bit i: point i carries more than a negligible normal impulse.
 unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row);
 void run_substeps(WorldState& world);
+void stop_fast_bodies(WorldState& world);
 void finalize_bodies(WorldState& world);
 
 // --- events (world/contact_events.cpp) ---

@@ -119,9 +119,7 @@ TEST(HardStart, H12_BulletsDoNotPassThinPlates) {
         }
       }
     }
-    // Wanted: 0. The sweep has no rotation in it and its manifold is taken once a step; measured at
-    // most 9.
-    EXPECT_LE(passed, 12) << "of 100, speed " << c.speed << " plate " << 2 * c.plate;
+    EXPECT_EQ(passed, 0) << "of 100, speed " << c.speed << " plate " << 2 * c.plate;
   }
 }
 

@@ -1,0 +1,457 @@
+// Continuous: bodies that moved far in the step are followed along their path and stopped where
+// they meet something that they would pass.
+//
+//   which     dynamic bodies that moved by more than a fraction of their thickness, and those that
+//             such a kinematic body may have run over; all others cost one comparison
+//   against   static and kinematic colliders; dynamic ones for bodies with the `continuous` flag
+//   stop      at a static body (or a slower dynamic one): it rests there for the rest of the step.
+//             At a kinematic one: it is carried along with it. Two flagged fast bodies: both rest.
+//   after     velocities stay, so that momentum does; the next step's contact solver finds the pair
+//             just touching, with its approach, and stops or bounces it. What gravity did on the
+//             part of the path that was not travelled is taken back: no energy is gained.
+//
+// What is lost is the rest of the step for the stopped body: it arrives later by that much. The
+// look-ahead of the narrowphase loses nothing and bounces within the step, so it stays for pairs
+// that meet on the paths they have when the step begins; here is what it cannot see: turning, paths
+// that contacts have bent, and second meetings.
+//
+// Contacts that exist when the step begins are the contact solver's business: such a pair is only
+// stopped if it gets deeper by a fraction of its thickness, so that nothing that rolls or slides
+// fast is held up by its own floor. And shapes are stopped at a slight overlap, which is the same
+// as following a slightly smaller core, so that the flush seam of two floor tiles stops nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "motion/body_motion.h"
+#include "world/body_sweep.h"
+#include "world/tolerances.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+constexpr Num kNever = 2;  // beyond the end of the step, which is 1
+constexpr NumRotation kNoTurn{0, 0, 0, 1};
+
+// Where a body is from some time on: placed in something that sweeps (itself, at first).
+struct Path {
+  Sweep sweep;
+  NumVec p{0, 0, 0};
+  NumRotation q = kNoTurn;
+
+  [[nodiscard]] NumVec position_at(Num t) const {
+    return sweep.centre_at(t) + rotate(sweep.rotation_at(t), p);
+  }
+  [[nodiscard]] NumRotation rotation_at(Num t) const {
+    return normalized(sweep.rotation_at(t) * q);
+  }
+};
+
+struct FastPair {
+  std::uint64_t key;               // of the colliders
+  std::uint32_t mover_a, mover_b;  // of collider_a, collider_b
+  std::uint32_t collider_a, collider_b;
+  Num time = kNever;
+};
+
+// A body that is followed. Lengths are relative to where it was when the step began.
+struct Mover {
+  std::uint32_t body = 0, dense = 0;
+  PosVec start{0, 0, 0};
+  Path first;  // until `stop`
+  Num stop = kNever;
+  bool carried = false;
+  Path then;  // from `stop` to `end`, if carried
+  Num end = 1;
+  std::vector<std::uint32_t>
+      fast_others;  // colliders of other movers near its path, if either is flagged
+};
+
+struct Hit {
+  Num time = kNever;
+  std::uint32_t body = kNone;
+};
+
+Num thickness_of(const ColliderInfo& a, const ColliderInfo& b) {
+  return static_cast<Num>(std::min(a.thickness, b.thickness));
+}
+
+ImpactSearch search_for(const ColliderInfo& a, const ColliderInfo& b, Num begin, Num end) {
+  const Num thickness = thickness_of(a, b);
+  const Num slop = static_cast<Num>(tolerance::kSlopFraction) * thickness;
+  ImpactSearch search;
+  search.begin = begin;
+  search.end = end;
+  search.separation = -static_cast<Num>(tolerance::kContinuousOverlapSlops) * slop;
+  search.tolerance = slop;
+  search.touching = static_cast<Num>(tolerance::kContinuousTouchSlops) * slop;
+  search.allowance = static_cast<Num>(tolerance::kContinuousAllowance) * thickness;
+  return search;
+}
+
+SweptShape on_path(const ColliderInfo& collider, const Path& path) {
+  return {collider.shape, path.p + rotate(path.q, to_num(collider.in_body.p)),
+          normalized(path.q * to_num(collider.in_body.q)), path.sweep};
+}
+
+// ---- which bodies -------------------------------------------------------------------------------
+
+// Farthest point of a body from its centre that a turn carries along: a ball about the centre turns
+// on the spot.
+Real turning_radius(const WorldState& world, const BodyInfo& info) {
+  Real farthest = 0;
+  for (const std::uint32_t slot : info.colliders) {
+    const ColliderInfo& collider = world.colliders.info[slot];
+    if (collider.component.is_sensor) continue;
+    farthest = std::max(farthest, length(collider.in_body.p) + bounding_radius(collider.shape) -
+                                      collider.shape.radius);
+  }
+  return farthest;
+}
+
+bool moved_far(const WorldState& world, std::uint32_t dense) {
+  const BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
+  const Real path = length_squared(world.delta[dense].dp);
+  const Real spin = world.dt * world.dt * length_squared(world.bodies.velocity[dense].w);
+  const Real limit = tolerance::kContinuousFraction * info.size;
+  // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
+  if (!(Real(2) * (path + spin * info.radius * info.radius) > limit * limit)) return false;
+  if (!(limit > Real(0)) || info.disabled) return false;
+  return std::sqrt(path) + std::sqrt(spin) * turning_radius(world, info) > limit;
+}
+
+// Slots of awake bodies that moved far, ascending.
+std::vector<std::uint32_t> bodies_that_moved_far(WorldState& world) {
+  const BodyStore& bodies = world.bodies;
+  const std::uint32_t count = bodies.awake_end - bodies.awake_begin;
+  const std::uint32_t chunks = (count + tolerance::kBodyGrain - 1) / tolerance::kBodyGrain;
+  std::vector<std::vector<std::uint32_t>>& found = world.fast_by_chunk;
+  if (found.size() < chunks) found.resize(chunks);
+  parallel_for(world, count, tolerance::kBodyGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    std::vector<std::uint32_t>& list = found[begin / tolerance::kBodyGrain];
+    list.clear();
+    for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end; ++i)
+      if (moved_far(world, i)) list.push_back(bodies.slot_of[i]);
+  });
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t c = 0; c < chunks; ++c)
+    all.insert(all.end(), found[c].begin(), found[c].end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+WorldAabb ball_at(PosVec centre, Num radius) {
+  const auto r = static_cast<PosReal>(radius);
+  return {centre - PosVec{r, r, r}, centre + PosVec{r, r, r}};
+}
+
+// Calls visit(slot) for the colliders of a tree whose boxes the collider may meet on its path.
+template <class Visit>
+void along_path(const AabbTree& tree, const ColliderInfo& collider, const Path& path, PosVec start,
+                Num begin, Visit&& visit) {
+  const NumVec from = path.sweep.centre_at(begin), to = path.sweep.centre_at(Num(1));
+  const Num arch = Num(0.25) * length(path.sweep.bend);
+  const Num radius = length(path.p) + length(to_num(collider.in_body.p)) +
+                     static_cast<Num>(bounding_radius(collider.shape)) + arch;
+  tree.cast_box(ball_at(start + cast<PosReal>(from), radius), cast<PosReal>(to - from), PosReal(1),
+                [&](std::uint32_t slot, PosReal max_fraction) {
+                  visit(slot);
+                  return max_fraction;
+                });
+}
+
+bool is_kinematic(const WorldState& world, std::uint32_t body) {
+  return world.bodies.info[body].type == MotionType::Kinematic;
+}
+bool is_dynamic(const WorldState& world, std::uint32_t body) {
+  return world.bodies.info[body].type == MotionType::Dynamic;
+}
+
+// Whether a kinematic body has moved far as seen from a dynamic one, over the latter's thickness.
+bool runs_into(const WorldState& world, std::uint32_t kinematic, std::uint32_t dynamic) {
+  const BodyInfo& info = world.bodies.info[dynamic];
+  const PosVec start = world.bodies.pose[info.dense].x;
+  const Sweep k = sweep_of_step(world, world.bodies.info[kinematic].dense, start);
+  const NumVec own =
+      world.bodies.is_awake(dynamic) ? to_num(world.delta[info.dense].dp) : NumVec{0, 0, 0};
+  // Where the kinematic body would have taken the dynamic one's centre.
+  const NumVec arm = inverse_rotate(k.rotation_at(Num(0)), -k.centre);
+  const NumVec taken = k.centre_at(Num(1)) + rotate(k.rotation_at(Num(1)), arm);
+  const Num reach = length(k.turn) * static_cast<Num>(info.radius);
+  return length(taken - own) + reach > static_cast<Num>(tolerance::kContinuousFraction * info.size);
+}
+
+// Dynamic bodies on the paths of fast kinematic ones join those that moved far themselves. Sleepers
+// among them are woken by the contact that the next step finds.
+std::vector<Mover> movers_of(WorldState& world) {
+  const std::vector<std::uint32_t> far = bodies_that_moved_far(world);
+  std::vector<std::uint32_t> dynamic;
+  for (const std::uint32_t body : far) {
+    if (is_dynamic(world, body)) {
+      dynamic.push_back(body);
+      continue;
+    }
+    const std::uint32_t dense = world.bodies.info[body].dense;
+    const PosVec start = world.bodies.pose[dense].x;
+    Path path;
+    path.sweep = sweep_of_step(world, dense, start);
+    for (const std::uint32_t slot : world.bodies.info[body].colliders) {
+      const ColliderInfo& own = world.colliders.info[slot];
+      if (own.component.is_sensor) continue;
+      along_path(world.moving_tree, own, path, start, 0, [&](std::uint32_t other) {
+        const ColliderInfo& collider = world.colliders.info[other];
+        if (collider.component.is_sensor || !is_dynamic(world, collider.body)) return;
+        if (!world.bodies.is_awake(collider.body) || !may_meet(world, slot, other)) return;
+        if (runs_into(world, body, collider.body)) dynamic.push_back(collider.body);
+      });
+    }
+  }
+  std::sort(dynamic.begin(), dynamic.end());
+  dynamic.erase(std::unique(dynamic.begin(), dynamic.end()), dynamic.end());
+  std::vector<Mover> movers(dynamic.size());
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    movers[i].body = dynamic[i];
+    movers[i].dense = world.bodies.info[dynamic[i]].dense;
+    movers[i].start = world.bodies.pose[movers[i].dense].x;
+  }
+  return movers;
+}
+
+std::uint32_t mover_of(const std::vector<Mover>& movers, std::uint32_t body) {
+  const auto at =
+      std::lower_bound(movers.begin(), movers.end(), body,
+                       [](const Mover& m, std::uint32_t wanted) { return m.body < wanted; });
+  return at != movers.end() && at->body == body ? static_cast<std::uint32_t>(at - movers.begin())
+                                                : kNone;
+}
+
+// ---- one body against what it cannot move -------------------------------------------------------
+
+struct Follower {
+  const WorldState& world;
+  const std::vector<Mover>& movers;
+  std::vector<std::uint32_t> obstacles;  // scratch
+
+  // The first collider met on a path from `begin` on. `passed` is a body that does not count.
+  Hit first_hit(Mover& mover, const Path& path, Num begin, std::uint32_t passed) {
+    const BodyInfo& info = world.bodies.info[mover.body];
+    Hit first;
+    for (const std::uint32_t slot : info.colliders) {
+      const ColliderInfo& own = world.colliders.info[slot];
+      if (own.component.is_sensor) continue;
+      obstacles.clear();
+      const auto consider = [&](std::uint32_t other) {
+        const ColliderInfo& collider = world.colliders.info[other];
+        if (collider.body == passed || collider.component.is_sensor ||
+            !may_meet(world, slot, other))
+          return;
+        if (has_parts(own.shape.type) || has_parts(collider.shape.type)) return;
+        if (is_dynamic(world, collider.body)) {
+          if (passed != kNone) return;  // on the second path: only what cannot yield
+          if (mover_of(movers, collider.body) != kNone) {
+            if (info.continuous || world.bodies.info[collider.body].continuous)
+              mover.fast_others.push_back(other);
+            return;
+          }
+          if (!info.continuous) return;
+        }
+        obstacles.push_back(other);
+      };
+      along_path(world.static_tree, own, path, mover.start, begin, consider);
+      along_path(world.moving_tree, own, path, mover.start, begin, consider);
+      std::sort(obstacles.begin(), obstacles.end());  // not in the order of the tree
+      for (const std::uint32_t other : obstacles) {
+        const ColliderInfo& collider = world.colliders.info[other];
+        const Num until = std::min(first.time, Num(1));
+        if (!(until > begin)) break;
+        const Sweep sweep =
+            sweep_of_step(world, world.bodies.info[collider.body].dense, mover.start);
+        const Impact impact = time_of_impact(swept_shape(collider, sweep), on_path(own, path),
+                                             search_for(own, collider, begin, until));
+        if (impact.status == ImpactStatus::Apart) continue;
+        first = {impact.time, collider.body};
+      }
+    }
+    return first;
+  }
+
+  void follow(Mover& mover) {
+    mover.first.sweep = sweep_of_step(world, mover.dense, mover.start);
+    const Hit hit = first_hit(mover, mover.first, 0, kNone);
+    if (hit.body == kNone) return;
+    mover.stop = hit.time;
+    if (!is_kinematic(world, hit.body)) return;
+    const Sweep carrier = sweep_of_step(world, world.bodies.info[hit.body].dense, mover.start);
+    const NumRotation q_K = carrier.rotation_at(hit.time);
+    mover.carried = true;
+    mover.then.sweep = carrier;
+    mover.then.p =
+        inverse_rotate(q_K, mover.first.position_at(hit.time) - carrier.centre_at(hit.time));
+    mover.then.q = normalized(conjugate(q_K) * mover.first.rotation_at(hit.time));
+    const Hit squeezed = first_hit(mover, mover.then, hit.time, hit.body);
+    if (squeezed.body != kNone) mover.end = squeezed.time;
+  }
+};
+
+// ---- fast bodies among one another --------------------------------------------------------------
+
+NumVec position_of(const Mover& m, Num t) {
+  if (t < m.stop) return m.first.position_at(t);
+  return m.carried ? m.then.position_at(std::min(t, m.end)) : m.first.position_at(m.stop);
+}
+NumRotation rotation_of(const Mover& m, Num t) {
+  if (t < m.stop) return m.first.rotation_at(t);
+  return m.carried ? m.then.rotation_at(std::min(t, m.end)) : m.first.rotation_at(m.stop);
+}
+
+// The path of a mover on a stretch of time that begins at t and holds none of its turning points.
+Path path_from(const Mover& m, Num t, PosVec reference) {
+  Path path;
+  if (t < m.stop) {
+    path = m.first;
+  } else if (m.carried && t < m.end) {
+    path = m.then;
+  } else {
+    path.sweep = resting_at(position_of(m, t), rotation_of(m, t));
+  }
+  path.sweep.centre += cast<Num>(m.start - reference);
+  return path;
+}
+
+Num meeting_time(const WorldState& world, const std::vector<Mover>& movers, const FastPair& pair,
+                 Num from) {
+  const Mover& a = movers[pair.mover_a];
+  const Mover& b = movers[pair.mover_b];
+  const ColliderInfo& collider_a = world.colliders.info[pair.collider_a];
+  const ColliderInfo& collider_b = world.colliders.info[pair.collider_b];
+  Num marks[6] = {from, a.stop, a.end, b.stop, b.end, 1};
+  std::sort(marks + 1, marks + 6);
+  Num t = from;
+  for (const Num mark : marks) {
+    const Num until = std::min(mark, Num(1));
+    if (!(until > t)) continue;
+    const Path path_a = path_from(a, t, a.start), path_b = path_from(b, t, a.start);
+    const Impact impact = time_of_impact(on_path(collider_a, path_a), on_path(collider_b, path_b),
+                                         search_for(collider_a, collider_b, t, until));
+    if (impact.status != ImpactStatus::Apart) return impact.time;
+    t = until;
+  }
+  return kNever;
+}
+
+std::vector<FastPair> fast_pairs(const WorldState& world, const std::vector<Mover>& movers) {
+  std::vector<FastPair> pairs;
+  for (std::uint32_t m = 0; m < movers.size(); ++m) {
+    for (const std::uint32_t other : movers[m].fast_others) {
+      const std::uint32_t n = mover_of(movers, world.colliders.info[other].body);
+      for (const std::uint32_t own : world.bodies.info[movers[m].body].colliders) {
+        if (world.colliders.info[own].component.is_sensor || !may_meet(world, own, other)) continue;
+        if (own < other) {
+          pairs.push_back({pair_key(own, other), m, n, own, other});
+        } else {
+          pairs.push_back({pair_key(own, other), n, m, other, own});
+        }
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const FastPair& a, const FastPair& b) { return a.key < b.key; });
+  pairs.erase(std::unique(pairs.begin(), pairs.end(),
+                          [](const FastPair& a, const FastPair& b) { return a.key == b.key; }),
+              pairs.end());
+  return pairs;
+}
+
+// Meetings in the order of time. Each stops at least one body earlier than before, so they end.
+void meet_one_another(const WorldState& world, std::vector<Mover>& movers) {
+  std::vector<FastPair> pairs = fast_pairs(world, movers);
+  for (FastPair& pair : pairs) pair.time = meeting_time(world, movers, pair, 0);
+  for (;;) {
+    FastPair* earliest = nullptr;
+    for (FastPair& pair : pairs)
+      if (pair.time <= Num(1) && (earliest == nullptr || pair.time < earliest->time))
+        earliest = &pair;
+    if (earliest == nullptr) return;
+    const Num t = earliest->time;
+    earliest->time = kNever;
+    const std::uint32_t met[2] = {earliest->mover_a, earliest->mover_b};
+    bool changed[2] = {false, false};
+    for (int i = 0; i < 2; ++i) {
+      Mover& mover = movers[met[i]];
+      if (!(t < mover.stop)) continue;
+      mover.stop = t;
+      mover.carried = false;
+      mover.end = 1;
+      changed[i] = true;
+    }
+    for (FastPair& pair : pairs) {
+      const bool stale = (changed[0] && (pair.mover_a == met[0] || pair.mover_b == met[0])) ||
+                         (changed[1] && (pair.mover_a == met[1] || pair.mover_b == met[1]));
+      if (stale && &pair != earliest) pair.time = meeting_time(world, movers, pair, t);
+    }
+  }
+}
+
+// ---- the outcome --------------------------------------------------------------------------------
+
+// What gravity and forces did to the speed on the part of the path that was not travelled.
+void take_back_work(WorldState& world, const Mover& mover) {
+  BodyVelocity& velocity = world.bodies.velocity[mover.dense];
+  const Vec a = world.substep[mover.dense].acceleration;
+  if (flies_a_parabola(world, mover.dense)) {
+    velocity.v -= (static_cast<Real>(Num(1) - mover.stop) * world.dt) * a;
+    return;
+  }
+  const Vec missing = world.delta[mover.dense].dp - cast<Real>(mover.first.position_at(mover.stop));
+  const Real gained = Real(2) * dot(a, missing), squared = length_squared(velocity.v);
+  if (!(gained > Real(0)) || !(squared > Real(0))) return;
+  velocity.v = std::sqrt(std::max(Real(1) - gained / squared, Real(0))) * velocity.v;
+}
+
+// A body that has been turned back between the step's ends keeps its angular momentum; where that
+// would mean more energy than it had, some of it goes.
+void limit_spin(BodyStore& bodies, std::uint32_t dense, Rotation before, Rotation after) {
+  const BodyMass& mass = bodies.mass[dense];
+  Vec& L = bodies.momentum[dense].L;
+  const Real had = dot(L, angular_velocity_of(mass, before, L));
+  const Real has = dot(L, angular_velocity_of(mass, after, L));
+  if (has > had && has > Real(0)) L = std::sqrt(std::max(had, Real(0)) / has) * L;
+}
+
+void stop_body(WorldState& world, const Mover& mover) {
+  BodyStore& bodies = world.bodies;
+  BodyDelta& delta = world.delta[mover.dense];
+  BodyPose& pose = bodies.pose[mover.dense];
+  const Rotation q = to_real(rotation_of(mover, 1));
+  const Vec dp = cast<Real>(position_of(mover, 1));
+  if (!is_finite(q) || !is_finite(dp)) return;
+  take_back_work(world, mover);
+  delta.dp = dp;
+  const bool exact = mover.first.sweep.tumbles && !mover.carried;
+  if (flies_free(world, mover.dense)) {
+    if (!exact) limit_spin(bodies, mover.dense, pose.q, q);
+    pose.q = q;
+    bodies.velocity[mover.dense].w =
+        angular_velocity_of(bodies.mass[mover.dense], q, bodies.momentum[mover.dense].L);
+  } else {
+    limit_spin(bodies, mover.dense, normalized(delta.dq * pose.q), q);
+    delta.dq = normalized(q * conjugate(pose.q));
+  }
+  ++world.report.continuous;
+}
+
+}  // namespace
+
+void stop_fast_bodies(WorldState& world) {
+  std::vector<Mover> movers = movers_of(world);
+  if (movers.empty()) return;
+  parallel_for(world, static_cast<std::uint32_t>(movers.size()), tolerance::kSweepGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 Follower follower{world, movers, {}};
+                 for (std::uint32_t i = begin; i < end; ++i) follower.follow(movers[i]);
+               });
+  meet_one_another(world, movers);
+  for (const Mover& mover : movers)
+    if (mover.stop <= Num(1)) stop_body(world, mover);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail
