@@ -10,6 +10,7 @@
 #include "collision/collide.h"
 #include "math/eigen_bridge.h"
 #include "world/inputs.h"
+#include "world/joint_world.h"
 #include "world/snapshot_table.h"
 #include "world/world_state.h"
 
@@ -420,6 +421,7 @@ Snapshot PhysicsWorld::save() const {
     for (island = 0; island < world.islands.size(); ++island)
       for (const Pair& pair : world.islands[island].pairs) write(pair);
   }
+  save_joints(out, world);
   return out;
 }
 
@@ -442,6 +444,7 @@ Status PhysicsWorld::restore(const Snapshot& snapshot) {
   if (!table.ok() || !check(made->settings).ok()) return damaged;
   if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) ||
       !restore_islands(snapshot, *made) || !restore_pairs(snapshot, *made) ||
+      !restore_joints(snapshot, *made) ||
       !read_list(snapshot, "body_touched.slot", made->touched, made->bodies.info.size()))
     return damaged;
   made->jobs = state_->jobs;

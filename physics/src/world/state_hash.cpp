@@ -1,7 +1,7 @@
 // The digest of a world's state: what two runs are compared by.
 #include <bit>
 
-#include "world/world_state.h"
+#include "world/joint_world.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
@@ -62,6 +62,7 @@ std::uint64_t PhysicsWorld::state_hash() const {
       digest.add(pair.friction_impulse[k]);
     }
   }
+  if (!world.joints.empty()) digest.add(digest_of_joints(world));
   return digest.value();
 }
 

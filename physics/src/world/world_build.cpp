@@ -4,12 +4,11 @@
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
 #include "world/inputs.h"
+#include "world/joint_world.h"
 #include "world/validate.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
-namespace {
-
 void end_pair(WorldState& world, const Pair& pair) {
   if (!pair.was_touching) return;
   const ColliderId a = world.colliders.id(pair.collider_a()),
@@ -26,6 +25,8 @@ void end_pair(WorldState& world, const Pair& pair) {
                                         {pair.body_b, world.bodies.info[pair.body_b].generation}});
   }
 }
+
+namespace {
 
 void count_collider(WorldState& world, const Collider& component, std::uint32_t change) {
   if (component.is_sensor) world.counts.sensors += change;
@@ -111,6 +112,7 @@ Status PhysicsWorld::destroy_body(BodyId body) {
   const std::uint32_t slot = body.index;
   detail::wake_body(world, slot);
   detail::wake_around(world, slot);
+  if (!world.joints.empty()) detail::remove_joints_of(world, slot);
   const std::vector<std::uint32_t> colliders = world.bodies.info[slot].colliders;
   for (const std::uint32_t collider : colliders) detail::remove_collider(world, collider);
   std::erase(world.moved, slot);

@@ -10,6 +10,7 @@
 #include "solver/contact_row.h"
 #include "world/body_store.h"
 #include "world/collider_store.h"
+#include "world/joint_store.h"
 #include "world/pair_store.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -27,12 +28,14 @@ struct EventLists {
   std::vector<SensorEvent> sensors;
   std::vector<SleepEvent> sleep;
   std::vector<QuarantineEvent> quarantined;
+  std::vector<JointBreakEvent> broken_joints;
   void clear() {
     contacts.clear();
     hits.clear();
     sensors.clear();
     sleep.clear();
     quarantined.clear();
+    broken_joints.clear();
   }
 };
 
@@ -61,6 +64,7 @@ struct WorldState {
   ColliderStore colliders;
   AabbTree static_tree, moving_tree;
   PairStore pairs;
+  JointStore joints;
   std::vector<SleepingIsland> islands;
   std::vector<std::uint32_t> free_islands;
   SceneCounts counts;
@@ -136,6 +140,7 @@ void run_substeps(WorldState& world);
 void finalize_bodies(WorldState& world);
 
 // --- pairs ---
+void end_pair(WorldState& world, const Pair& pair);  // reports it
 void forget_pairs_of_collider(WorldState& world, std::uint32_t collider);
 Pair make_pair(const WorldState& world, std::uint64_t key);
 bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t collider_b);
