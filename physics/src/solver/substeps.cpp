@@ -249,7 +249,7 @@ void fly(WorldState& world, std::uint32_t i) {
 void run_substeps(WorldState& world) {
   const Real inverse_h = Real(1) / world.h;
   const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
-  const bool joints = !world.joints.blocks.empty();
+  const bool joints = !world.joints.empty();
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (!world.bouncing_rows.empty()) run_impacts(world);

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "plumb/joint.h"
-#include "solver/joints/joint_block.h"
+#include "solver/joints/joint_memory.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
+
+struct JointScratch;  // solver/joints/joint_block.h
 
 struct JointInfo {
   std::uint32_t generation = 0;
@@ -54,8 +57,6 @@ class JointStore {
     free_slots.push_back(slot);
     --alive_count;
   }
-  // Something to do for the step, be it only to clear the last one's blocks.
-  [[nodiscard]] bool active_or_left() const { return alive_count > 0 || !blocks.empty(); }
   [[nodiscard]] bool empty() const { return alive_count == 0; }
   [[nodiscard]] JointId id(std::uint32_t slot) const { return {slot, info[slot].generation}; }
   [[nodiscard]] bool is_valid(JointId joint) const {
@@ -73,13 +74,8 @@ class JointStore {
   std::uint32_t alive_count = 0;
   std::vector<std::vector<std::uint32_t>> of_body;  // by body slot, ascending
 
-  // --- scratch of the running step ---
-  std::vector<std::uint32_t> active, order;  // slots of joints that hold something awake
-  std::vector<JointBlock> blocks;            // in colour order
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> colors;  // ranges of blocks
-  std::vector<std::uint64_t> color_mask;                        // per dense index
-  std::vector<std::uint32_t> group;         // per dense index: smallest one connected over joints
-  std::vector<std::uint8_t> group_touches;  // per group: some body of it touches something
+  // Of the running step; null until there is a joint.
+  std::shared_ptr<JointScratch> scratch;
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

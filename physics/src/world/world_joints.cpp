@@ -226,7 +226,7 @@ void link_joined(WorldState& world) {
 }
 
 void break_joints(WorldState& world) {
-  for (const std::uint32_t slot : world.joints.active) {
+  for (const std::uint32_t slot : world.joints.scratch->active) {
     const JointInfo& joint = world.joints.info[slot];
     if (!joint.alive) continue;  // a coupling that went with its joint
     const Real force = length(joint.memory.force), torque = length(joint.memory.torque);

@@ -17,15 +17,14 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <vector>
 
 #include "math/quaternion.h"
 #include "plumb/joint.h"
 #include "solver/contact_row.h"
+#include "solver/joints/joint_memory.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
-
-inline constexpr std::uint32_t kWorldBody = std::numeric_limits<std::uint32_t>::max();
 
 // What a row measures. x, y, z are the axes of frame A; d leads from origin A to origin B.
 enum class Coordinate : std::uint8_t {
@@ -47,34 +46,6 @@ enum class Coordinate : std::uint8_t {
   Distance,  // |d|
   Pulley,
   Coupling,  // first + ratio * second
-};
-
-inline constexpr int kMaxJointRows = 8;
-inline constexpr int kMaxHeld = 6, kMaxFree = 6;
-inline constexpr int kMaxJointBodies = 4;
-inline constexpr int kMaxJacobians = 16;  // rows times bodies
-
-// What acts along a free row. The impulses are remembered in this order.
-enum RowPart : std::uint8_t { kHold, kSpring, kMotor, kFriction, kLower, kUpper, kRowParts };
-
-// Impulses of one row, as remembered between steps. A joint whose bodies touch nothing gets its
-// impulses in two halves, before and after the drift (see joints.cpp); otherwise only the first is
-// used.
-struct RowImpulses {
-  Real first[kRowParts] = {};  // [N s] or [N m s]
-  Real second[kRowParts] = {};
-};
-
-// A joint from step to step.
-struct JointMemory {
-  RowImpulses rows[kMaxJointRows];
-  bool split = false;   // which of the two schemes the impulses belong to
-  Real angle = 0;       // [rad] of the last step, whole turns counted
-  Real zero = 0;        // couplings: the constant; pulley: length of the rope
-  Vec force{0, 0, 0};   // [N] on B, mean over the last step
-  Vec torque{0, 0, 0};  // [N m]
-  Real effort = 0;      // [N] or [N m]
-  bool at_lower = false, at_upper = false;
 };
 
 struct BodyJacobian {
@@ -145,13 +116,22 @@ struct JointBlock {
   JointRow row[kMaxJointRows];
   FreeRow free[kMaxFree];
   BodyJacobian J[kMaxJacobians];         // row by row
-  Real leak[kMaxHeld] = {};              // G of the held rows (kHoldLeak)
   Real factor[kMaxHeld][kMaxHeld] = {};  // L below the diagonal
   Real D[kMaxHeld] = {}, D_inverse[kMaxHeld] = {};
   Real W[kMaxHeld][kMaxFree] = {};              // held x free
   Real KW[kMaxHeld][kMaxFree] = {};             // K_hf
   Real S[kMaxFree][kMaxFree] = {};              // free x free
   Vec force_sum{0, 0, 0}, torque_sum{0, 0, 0};  // [N s], [N m s] on B over the step
+};
+
+// What the joints of a world need while it steps.
+struct JointScratch {
+  std::vector<std::uint32_t> active, order;  // slots of joints that hold something awake
+  std::vector<JointBlock> blocks;            // in colour order
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> colors;  // ranges of blocks
+  std::vector<std::uint64_t> color_mask;                        // per dense index
+  std::vector<std::uint32_t> group;         // per dense index: smallest one connected over joints
+  std::vector<std::uint8_t> group_touches;  // per group: some body of it touches something
 };
 
 // x = K_hh^-1 x.

@@ -68,7 +68,8 @@ class Groups {
 
 void find_groups(WorldState& world, const std::vector<std::uint32_t>& active) {
   JointStore& joints = world.joints;
-  std::vector<std::uint32_t>& parents = joints.group;
+  JointScratch& scratch = *joints.scratch;
+  std::vector<std::uint32_t>& parents = scratch.group;
   parents.resize(world.bodies.awake_end);
   std::iota(parents.begin(), parents.end(), 0u);
   Groups groups(parents);
@@ -82,9 +83,9 @@ void find_groups(WorldState& world, const std::vector<std::uint32_t>& active) {
       first = dense;
     }
   }
-  joints.group_touches.assign(world.bodies.awake_end, 0);
+  scratch.group_touches.assign(world.bodies.awake_end, 0);
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i)
-    if (world.substep[i].constrained) joints.group_touches[groups.root(i)] = 1;
+    if (world.substep[i].constrained) scratch.group_touches[groups.root(i)] = 1;
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i)
     parents[i] = groups.root(i);
 }
@@ -92,7 +93,8 @@ void find_groups(WorldState& world, const std::vector<std::uint32_t>& active) {
 // Greedy, in the order of slots, as for contacts.
 void color_joints(WorldState& world, const std::vector<std::uint32_t>& active) {
   JointStore& joints = world.joints;
-  std::vector<std::uint64_t>& mask = joints.color_mask;
+  JointScratch& scratch = *joints.scratch;
+  std::vector<std::uint64_t>& mask = scratch.color_mask;
   mask.assign(world.bodies.awake_end, 0);
   std::vector<std::uint32_t> counts(kJointColors + 1, 0);
   std::vector<std::uint8_t> color_of(active.size());
@@ -109,19 +111,20 @@ void color_joints(WorldState& world, const std::vector<std::uint32_t>& active) {
     color_of[i] = static_cast<std::uint8_t>(color);
     ++counts[static_cast<std::size_t>(color) + 1];
   }
-  joints.colors.clear();
+  scratch.colors.clear();
   for (std::size_t c = 0; c < kJointColors; ++c) {
     const std::uint32_t begin = counts[c], size = counts[c + 1];
     counts[c + 1] += begin;
     if (size == 0) continue;
     if (c + 1 < kJointColors) {
-      joints.colors.emplace_back(begin, begin + size);
+      scratch.colors.emplace_back(begin, begin + size);
     } else {  // beyond the last colour: one after the other
-      for (std::uint32_t i = 0; i < size; ++i) joints.colors.emplace_back(begin + i, begin + i + 1);
+      for (std::uint32_t i = 0; i < size; ++i)
+        scratch.colors.emplace_back(begin + i, begin + i + 1);
     }
   }
-  joints.order.resize(active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) joints.order[counts[color_of[i]]++] = active[i];
+  scratch.order.resize(active.size());
+  for (std::size_t i = 0; i < active.size(); ++i) scratch.order[counts[color_of[i]]++] = active[i];
 }
 
 int place_of(JointBlock& block, const WorldState& world, std::uint32_t slot) {
@@ -199,6 +202,7 @@ void recall_impulses(const WorldState& world, const JointMemory& memory, JointBl
 
 void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot) {
   const JointStore& joints = world.joints;
+  const JointScratch& scratch = *joints.scratch;
   const JointInfo& joint = joints.info[slot];
   block = JointBlock{};
   block.joint = slot;
@@ -224,7 +228,8 @@ void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot)
   RowBuilder rows(block, joint.component.softness);
   std::visit([&](const auto& kind) { make_rows(kind, rows); }, joint.component.kind);
   for (int k = 0; k < block.bodies; ++k)
-    if (block.moves[k]) block.split = world.joints.group_touches[joints.group[block.body[k]]] == 0;
+    if (block.moves[k])
+      block.split = world.joints.scratch->group_touches[scratch.group[block.body[k]]] == 0;
   recall_impulses(world, joint.memory, block);
   prepare_joint(world, block);
   note_rates(block, world);
@@ -234,7 +239,9 @@ void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot)
 
 void build_joints(WorldState& world) {
   JointStore& joints = world.joints;
-  std::vector<std::uint32_t>& active = joints.active;
+  if (joints.scratch == nullptr) joints.scratch = std::make_shared<JointScratch>();
+  JointScratch& scratch = *joints.scratch;
+  std::vector<std::uint32_t>& active = scratch.active;
   active.clear();
   for (std::uint32_t slot = 0; slot < joints.info.size(); ++slot) {
     if (!joints.info[slot].alive) continue;
@@ -245,7 +252,7 @@ void build_joints(WorldState& world) {
   }
   find_groups(world, active);
   color_joints(world, active);
-  const std::uint32_t count = static_cast<std::uint32_t>(joints.order.size());
+  const std::uint32_t count = static_cast<std::uint32_t>(scratch.order.size());
   for (const std::uint32_t slot : active) {
     const JointBodies bodies = bodies_of(joints, joints.info[slot]);
     for (int k = 0; k < bodies.count; ++k) {
@@ -253,14 +260,14 @@ void build_joints(WorldState& world) {
       const std::uint32_t dense = dense_of(world, bodies.slot[k]);
       world.substep[dense].constrained = true;
       world.substep[dense].jointed = true;
-      world.substep[dense].split = joints.group_touches[joints.group[dense]] == 0;
+      world.substep[dense].split = scratch.group_touches[scratch.group[dense]] == 0;
     }
   }
-  joints.blocks.resize(count);
+  scratch.blocks.resize(count);
   parallel_for(world, count, joint_tolerance::kJointGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = begin; i < end; ++i)
-                   build_block(world, joints.blocks[i], joints.order[i]);
+                   build_block(world, scratch.blocks[i], scratch.order[i]);
                });
 }
 

@@ -66,7 +66,6 @@ void make_factors(JointBlock& block, const Real K[kMaxJointRows][kMaxJointRows])
   const int held = block.held, free = block.rows - held;
   auto& L = block.factor;
   for (int i = 0; i < held; ++i) {
-    block.leak[i] = joint_tolerance::kHoldLeak * K[i][i];
     Real d = K[i][i] + joint_tolerance::kRegular * K[i][i];
     for (int k = 0; k < i; ++k) d -= L[i][k] * L[i][k] * block.D[k];
     const bool acts = d > Real(0);

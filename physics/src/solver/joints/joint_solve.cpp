@@ -277,13 +277,15 @@ void solve_joint(WorldState& world, JointBlock& block, JointPass pass) {
     const JointRow& row = block.row[i];
     if (solving) {
       const Real push = is_linear(row.coordinate) ? block.push_linear : block.push_angular;
-      x[i] = inverse_h * (end[i] - row.value) + clamp(inverse_h * (row.value - row.target), push) +
-             block.leak[i] * row.impulses.first[kHold];
+      x[i] = inverse_h * (end[i] - row.value) + clamp(inverse_h * (row.value - row.target), push);
     } else {
       x[i] = rate(block, i, u);
     }
   }
   solve_held(block, x);
+  if (solving)
+    for (int i = 0; i < block.held; ++i)
+      x[i] += joint_tolerance::kHoldLeak * block.row[i].impulses.first[kHold];
 
   FreeSpace s{block, pass, block.split ? Real(0.5) * h : h, h, {}, {}, {}, {}};
   for (int f = 0; f < s.count(); ++f) {

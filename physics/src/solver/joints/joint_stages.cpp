@@ -2,6 +2,7 @@
 #include "solver/joints/joint_stages.h"
 
 #include "math/eigen_bridge.h"
+#include "solver/joints/joint_block.h"
 #include "solver/joints/joint_solver.h"
 #include "solver/joints/joint_tolerances.h"
 #include "world/world_state.h"
@@ -11,7 +12,7 @@ namespace {
 
 template <class Task>
 void for_joints(WorldState& world, Task&& task) {
-  JointStore& joints = world.joints;
+  JointScratch& joints = *world.joints.scratch;
   parallel_for(world, static_cast<std::uint32_t>(joints.blocks.size()),
                joint_tolerance::kJointGrain, [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = begin; i < end; ++i) task(joints.blocks[i]);
@@ -19,7 +20,7 @@ void for_joints(WorldState& world, Task&& task) {
 }
 template <class Task>
 void for_joints_by_color(WorldState& world, Task&& task) {
-  JointStore& joints = world.joints;
+  JointScratch& joints = *world.joints.scratch;
   for (const auto& [first, last] : joints.colors) {
     const std::uint32_t offset = first;
     parallel_for(world, last - first, joint_tolerance::kJointGrain,
@@ -31,7 +32,7 @@ void for_joints_by_color(WorldState& world, Task&& task) {
 
 // A single colour is a set of joints apart: what one does, no other sees.
 int passes_over(const WorldState& world) {
-  return world.joints.colors.size() > 1 ? joint_tolerance::kChainPasses : 1;
+  return world.joints.scratch->colors.size() > 1 ? joint_tolerance::kChainPasses : 1;
 }
 
 void pass_over(WorldState& world, JointPass pass) {
@@ -60,7 +61,7 @@ void relax_joints(WorldState& world) {
 
 void store_joints(WorldState& world) {
   const Real per_time = Real(1) / world.dt;
-  for (const JointBlock& block : world.joints.blocks) {
+  for (const JointBlock& block : world.joints.scratch->blocks) {
     JointMemory& memory = world.joints.info[block.joint].memory;
     memory.split = block.split;
     memory.force = per_time * block.force_sum;
