@@ -6,6 +6,7 @@
 #include <span>
 
 #include "plumb/ids.h"
+#include "plumb/joint.h"
 #include "plumb/math.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -46,6 +47,7 @@ struct Events {
   std::span<const SensorEvent> sensors;
   std::span<const SleepEvent> sleep;
   std::span<const QuarantineEvent> quarantined;
+  std::span<const JointBreakEvent> broken_joints;  // by index
 };
 
 // A touching pair as it stands after the step.

@@ -30,6 +30,10 @@ enum class InputKind : std::uint32_t {
   ApplyAngularImpulse,
   SetAwake,
   SetSettings,
+  CreateJoint,
+  DestroyJoint,
+  SetJointMotor,
+  SetJointLimit,
 };
 const char* name_of(InputKind kind);
 

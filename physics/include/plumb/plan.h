@@ -21,6 +21,7 @@ enum class PlanItem : unsigned char {
   Sensors,
   Sleeping,
   DoublePositions,
+  Joints,
   Count,
 };
 const char* name_of(PlanItem item);

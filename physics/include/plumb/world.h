@@ -19,6 +19,7 @@
 #include "plumb/ids.h"
 #include "plumb/inputs.h"
 #include "plumb/job_system.h"
+#include "plumb/joint.h"
 #include "plumb/observer.h"
 #include "plumb/plan.h"
 #include "plumb/queries.h"
@@ -43,9 +44,12 @@ class PhysicsWorld {
 
   // --- building --------------------------------------------------------------------------------
   Created<BodyId> create_body(const RigidBody& body);
-  Status destroy_body(BodyId body);  // with its colliders; what rested on it wakes
+  Status destroy_body(BodyId body);  // with its colliders and joints; what rested on it wakes
   Created<ColliderId> create_collider(BodyId body, const Collider& collider);
   Status destroy_collider(ColliderId collider);
+  // Joints wake their bodies; they end with either body, and with what they couple.
+  Created<JointId> create_joint(const Joint& joint);
+  Status destroy_joint(JointId joint);
   Status set_settings(const WorldSettings& settings);
   // Threads for the coming steps; null: the calling thread alone. Not owned, must outlive its use.
   void set_job_system(JobSystem* jobs);
@@ -70,6 +74,11 @@ class PhysicsWorld {
   Status set_mass(BodyId body, const MassProperties& properties);
   Status set_awake(BodyId body, bool awake);  // putting to sleep takes the whole island
 
+  // --- acting on joints ------------------------------------------------------------------------
+  // axis: 0 of a hinge or slider; 0 to 5 of a six-dof joint. Empty: none. Both wake the bodies.
+  Status set_joint_motor(JointId joint, const std::optional<JointMotor>& motor, int axis = 0);
+  Status set_joint_limit(JointId joint, const std::optional<JointLimit>& limit, int axis = 0);
+
   // --- stepping --------------------------------------------------------------------------------
   // dt: [s] finite, >= 0; 0 does nothing. Returns the report, also available as last_report().
   const StepReport& step(double dt);
@@ -83,6 +92,7 @@ class PhysicsWorld {
   // --- reading ---------------------------------------------------------------------------------
   [[nodiscard]] bool is_valid(BodyId body) const;
   [[nodiscard]] bool is_valid(ColliderId collider) const;
+  [[nodiscard]] bool is_valid(JointId joint) const;
   // For handles that are not valid these return default values.
   [[nodiscard]] BodyState state(BodyId body) const;
   [[nodiscard]] Pose pose(BodyId body) const;
@@ -101,6 +111,11 @@ class PhysicsWorld {
   [[nodiscard]] Collider collider(ColliderId collider) const;
   [[nodiscard]] RigidBody body(BodyId body) const;  // as it could be created again now
   [[nodiscard]] std::size_t body_count() const;
+  [[nodiscard]] Joint joint(JointId joint) const;
+  [[nodiscard]] JointState joint_state(JointId joint) const;
+  [[nodiscard]] JointReaction joint_reaction(JointId joint) const;  // of the last step
+  [[nodiscard]] std::vector<JointId> joints_of(BodyId body) const;  // by index
+  [[nodiscard]] std::size_t joint_count() const;
   [[nodiscard]] const WorldSettings& settings() const;
   [[nodiscard]] double time() const;  // [s]
   [[nodiscard]] std::uint64_t step_count() const;

@@ -51,6 +51,8 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
       each([&](SurfaceTriangle& t) { return touch_polyhedron(on, polyhedron, t, contact); });
       return;
     }
+    case ShapeType::Cylinder:
+    case ShapeType::Cone:
     case ShapeType::HalfSpace:
     case ShapeType::Mesh:
     case ShapeType::Heightfield:

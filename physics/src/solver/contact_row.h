@@ -41,6 +41,8 @@ struct SubstepBody {
   bool constrained = false;         // some row holds it
   bool contacts_changed = false;    // the set of loaded points is not that of the last substep
   bool bounced = false;             // in this substep
+  bool jointed = false;             // some joint holds it
+  bool split = false;               // ... and no contact: forces act half before, half after
 };
 
 // Spring-like softness of a contact, from a frequency and a damping ratio [Catto 2024]:

@@ -3,6 +3,7 @@
 
 #include "collision/rolling.h"
 #include "motion/body_motion.h"
+#include "solver/joints/joint_stages.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -293,6 +294,7 @@ void build_rows(WorldState& world) {
     if (bodies.mass[a].mass > Real(0)) world.substep[a].constrained = true;
     if (bodies.mass[b].mass > Real(0)) world.substep[b].constrained = true;
   }
+  if (!world.joints.empty()) build_joints(world);
   world.rows.resize(count);
   parallel_for(world, count, tolerance::kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i)

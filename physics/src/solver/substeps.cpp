@@ -14,6 +14,7 @@
 
 #include "motion/body_motion.h"
 #include "solver/contact_kernel.h"
+#include "solver/joints/joint_stages.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -76,17 +77,19 @@ void kick(WorldState& world, std::uint32_t i) {
   Vec& L = world.bodies.momentum[i].L;
   s.v_start = velocity.v;
   s.L_start = L;
+  // Forces on bodies that only joints hold act half before and half after the drift.
+  const Real time = s.split ? Real(0.5) * world.h : world.h;
   if (force.linear_damping > Real(0)) {
-    const DampedMotion damped = damped_motion(force.linear_damping, world.h);
+    const DampedMotion damped = damped_motion(force.linear_damping, time);
     velocity.v = damped.decay * velocity.v + damped.gain * s.acceleration;
   } else {
-    velocity.v += world.h * s.acceleration;
+    velocity.v += time * s.acceleration;
   }
   if (force.angular_damping > Real(0)) {
-    const DampedMotion damped = damped_motion(force.angular_damping, world.h);
+    const DampedMotion damped = damped_motion(force.angular_damping, time);
     L = damped.decay * L + damped.gain * force.torque;
   } else {
-    L += world.h * force.torque;
+    L += time * force.torque;
   }
   velocity.w = angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), L);
   s.w_in = velocity.w;
@@ -112,6 +115,11 @@ void drift(WorldState& world, std::uint32_t i) {
     delta.dq = normalized(q * conjugate(world.bodies.pose[i].q));
     velocity.w = angular_velocity_of(world.bodies.mass[i], q, L);
     s.w_in = velocity.w;
+    if (s.split) {
+      s.I = world_inertia(world.bodies.mass[i], q);
+      s.I_inverse = world_inverse_inertia(world.bodies.mass[i], q);
+      kick(world, i);
+    }
     s.load = Real(0);
     s.sliding_load = Real(0);
   } else if (!(world.bodies.mass[i].mass > Real(0))) {  // kinematic: as told
@@ -127,7 +135,7 @@ void finish_substep(WorldState& world, std::uint32_t i) {
   const bool changed = s.contacts_changed;
   s.contacts_changed = false;
   s.bounced = false;
-  if (changed) return;
+  if (changed || s.jointed) return;
   const Real theta = s.load > Real(0) ? s.sliding_load / s.load : Real(1);
   const Real weight = Real(0.5) * world.h * theta;
   BodyDelta& delta = world.delta[i];
@@ -244,16 +252,19 @@ void fly(WorldState& world, std::uint32_t i) {
 void run_substeps(WorldState& world) {
   const Real inverse_h = Real(1) / world.h;
   const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
+  const bool joints = !world.joints.empty();
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (!world.bouncing_rows.empty()) run_impacts(world);
     for_awake_bodies(world, [&](std::uint32_t i) { kick(world, i); });
+    if (joints) warm_start_joints(world);
     for_rows_by_color(world, [&](ContactRow<Real>& row) {
       if (row.skip) return;
       RowVelocities<Real> u = read_velocities(world, row);
       warm_start(row, u);
       write_velocities(world, row, u);
     });
+    if (joints) solve_joints(world);
     for_rows_by_color(world, [&](ContactRow<Real>& row) {
       if (row.skip) return;
       const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
@@ -264,12 +275,14 @@ void run_substeps(WorldState& world) {
       write_velocities(world, row, u);
     });
     for_awake_bodies(world, [&](std::uint32_t i) { drift(world, i); });
+    if (joints) relax_joints(world);
     for (int pass = 0; pass < relax_passes; ++pass)
       for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
     for_rows_by_color(world, [&](ContactRow<Real>& row) { close_substep(world, row); });
     for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
   }
   store_impulses(world);
+  if (joints) store_joints(world);
   world.last_h = world.h;
 }
 

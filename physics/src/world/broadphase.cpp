@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/eigen_bridge.h"
+#include "world/joint_world.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -83,6 +84,9 @@ bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t c
   const MotionType type_a = world.bodies.info[a.body].type, type_b = world.bodies.info[b.body].type;
   if (type_a != MotionType::Dynamic && type_b != MotionType::Dynamic) return false;
   if (a.component.is_sensor && b.component.is_sensor) return false;
+  if (!world.joints.empty() && !a.component.is_sensor && !b.component.is_sensor &&
+      joined_without_contact(world, a.body, b.body))
+    return false;
   return (a.component.filter.layers & b.component.filter.collides_with) != 0 &&
          (b.component.filter.layers & a.component.filter.collides_with) != 0;
 }

@@ -20,6 +20,7 @@
 #include <limits>
 
 #include "plumb/compound.h"
+#include "world/joint_inputs.h"
 
 namespace plumb::inline PLUMB_ABI {
 
@@ -61,6 +62,14 @@ const char* name_of(InputKind kind) {
       return "set_awake";
     case InputKind::SetSettings:
       return "set_settings";
+    case InputKind::CreateJoint:
+      return "create_joint";
+    case InputKind::DestroyJoint:
+      return "destroy_joint";
+    case InputKind::SetJointMotor:
+      return "set_joint_motor";
+    case InputKind::SetJointLimit:
+      return "set_joint_limit";
   }
   return "unknown";
 }
@@ -433,6 +442,27 @@ Status PhysicsWorld::apply_input(const InputRecord& input) {
     case InputKind::SetSettings: {
       const WorldSettings chosen = in.settings();
       return in.complete() ? set_settings(chosen) : malformed;
+    }
+    case InputKind::CreateJoint: {
+      bool ok = true;
+      const Joint made = detail::read_joint(in, ok);
+      return ok && in.complete() ? create_joint(made).status : malformed;
+    }
+    case InputKind::DestroyJoint:
+      return in.complete() ? destroy_joint(JointId::from_value(input.target)) : malformed;
+    case InputKind::SetJointMotor: {
+      bool ok = true;
+      const int axis = static_cast<int>(in.number());
+      const auto motor = detail::read_motor(in, ok);
+      return ok && in.complete() ? set_joint_motor(JointId::from_value(input.target), motor, axis)
+                                 : malformed;
+    }
+    case InputKind::SetJointLimit: {
+      bool ok = true;
+      const int axis = static_cast<int>(in.number());
+      const auto limit = detail::read_limit(in, ok);
+      return ok && in.complete() ? set_joint_limit(JointId::from_value(input.target), limit, axis)
+                                 : malformed;
     }
     case InputKind::ApplyForceAt:
     case InputKind::ApplyImpulseAt: {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/joint_world.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -41,6 +42,7 @@ void link_touching(WorldState& world) {
         world.bodies.is_awake(pair.body_a) && world.bodies.is_awake(pair.body_b))
       link(world.parents, pair.body_a, pair.body_b);
   }
+  if (!world.joints.empty()) link_joined(world);
 }
 
 // A body must be this slow to count as resting [m/s].
@@ -111,6 +113,10 @@ void move_pairs_to_islands(WorldState& world) {
 
 }  // namespace
 
+void link_bodies(WorldState& world, std::uint32_t body_a, std::uint32_t body_b) {
+  link(world.parents, body_a, body_b);
+}
+
 void wake_body(WorldState& world, std::uint32_t body) {
   BodyInfo& info = world.bodies.info[body];
   if (info.disabled || info.type == MotionType::Static) return;
@@ -118,6 +124,7 @@ void wake_body(WorldState& world, std::uint32_t body) {
   world.touched.push_back(body);
   if (info.island == kNone) {
     world.bodies.wake(body);
+    if (!world.joints.empty()) wake_joined(world, body);
     return;
   }
   const std::uint32_t index = info.island;

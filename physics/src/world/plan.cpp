@@ -37,6 +37,8 @@ const char* name_of(PlanItem item) {
       return "sleeping";
     case PlanItem::DoublePositions:
       return "double positions";
+    case PlanItem::Joints:
+      return "joints";
     case PlanItem::Count:
       break;
   }
@@ -195,6 +197,10 @@ StepPlan PhysicsWorld::plan() const {
              : "switched off in the settings");
   constexpr bool kDouble = !std::is_same_v<PosReal, float>;
   decide(PlanItem::DoublePositions, kDouble, std::string("this build is ") + kPrecisionName);
+  const std::uint32_t joints = world.joints.alive_count;
+  decide(
+      PlanItem::Joints, joints > 0,
+      joints > 0 ? std::to_string(joints) + " joints hold bodies together" : "there is no joint");
   return plan;
 }
 

@@ -10,6 +10,7 @@
 #include "collision/collide.h"
 #include "math/eigen_bridge.h"
 #include "world/inputs.h"
+#include "world/joint_world.h"
 #include "world/shape_numbers.h"
 #include "world/snapshot_geometry.h"
 #include "world/snapshot_table.h"
@@ -411,6 +412,7 @@ void PhysicsWorld::save(Snapshot& snapshot) const {
   add_list(out, "collider_free", "slot", world.colliders.free_slots);
   add_list(out, "island_free", "index", world.free_islands);
   save_pairs(out, world);
+  save_joints(out, world);
 }
 
 Status PhysicsWorld::restore(const Snapshot& snapshot) {
@@ -431,7 +433,8 @@ Status PhysicsWorld::restore(const Snapshot& snapshot) {
   visit_world(table, *made);
   if (!table.ok() || !check(made->settings).ok()) return damaged;
   if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) ||
-      !restore_islands(snapshot, *made) || !restore_pairs(snapshot, *made))
+      !restore_islands(snapshot, *made) || !restore_pairs(snapshot, *made) ||
+      !restore_joints(snapshot, *made))
     return damaged;
   restore_lists(*made);
   made->jobs = state_->jobs;

@@ -1,7 +1,7 @@
 // The digest of a world's state: what two runs are compared by.
 #include <bit>
 
-#include "world/world_state.h"
+#include "world/joint_world.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
@@ -83,6 +83,7 @@ std::uint64_t PhysicsWorld::state_hash() const {
   detail::Digest digest;
   detail::add_bodies(digest, *state_);
   detail::add_contacts(digest, *state_);
+  if (!state_->joints.empty()) digest.add(detail::digest_of_joints(*state_));
   return digest.value();
 }
 

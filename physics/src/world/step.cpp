@@ -2,7 +2,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "world/world_state.h"
+#include "world/joint_world.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
@@ -40,6 +40,7 @@ void run_stages(WorldState& world, double dt) {
   stage(Stage::Continuous, stop_fast_bodies);
   stage(Stage::Finalize, finalize_bodies);
   stage(Stage::Sleep, sleep_islands);
+  if (!world.joints.empty()) break_joints(world);
   std::swap(world.published, world.gathering);
   world.gathering.clear();
   world.stepping = false;

@@ -4,6 +4,7 @@
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
 #include "world/inputs.h"
+#include "world/joint_world.h"
 #include "world/validate.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -95,6 +96,7 @@ Status PhysicsWorld::destroy_body(BodyId body) {
   const std::uint32_t slot = body.index;
   detail::wake_body(world, slot);
   detail::wake_around(world, slot);
+  if (!world.joints.empty()) detail::remove_joints_of(world, slot);
   const std::vector<std::uint32_t> colliders = world.bodies.info[slot].colliders;
   for (const std::uint32_t collider : colliders) detail::remove_collider(world, collider);
   std::erase(world.moved, slot);

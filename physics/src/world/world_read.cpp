@@ -162,7 +162,8 @@ std::uint64_t PhysicsWorld::step_count() const { return state_->step_count; }
 const StepReport& PhysicsWorld::last_report() const { return state_->report; }
 Events PhysicsWorld::events() const {
   const detail::EventLists& lists = state_->published;
-  return {lists.contacts, lists.hits, lists.sensors, lists.sleep, lists.quarantined};
+  return {lists.contacts, lists.hits,        lists.sensors,
+          lists.sleep,    lists.quarantined, lists.broken_joints};
 }
 
 void PhysicsWorld::copy_body_states(std::vector<BodyState>& out) const {

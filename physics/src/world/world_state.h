@@ -10,6 +10,7 @@
 #include "solver/contact_row.h"
 #include "world/body_store.h"
 #include "world/collider_store.h"
+#include "world/joint_store.h"
 #include "world/pair_store.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -28,12 +29,14 @@ struct EventLists {
   std::vector<SensorEvent> sensors;
   std::vector<SleepEvent> sleep;
   std::vector<QuarantineEvent> quarantined;
+  std::vector<JointBreakEvent> broken_joints;
   void clear() {
     contacts.clear();
     hits.clear();
     sensors.clear();
     sleep.clear();
     quarantined.clear();
+    broken_joints.clear();
   }
 };
 
@@ -71,6 +74,7 @@ struct WorldState {
   std::vector<WorldAabb> reach;  // per collider slot: all its places in the next step
   PairStore pairs;
   std::vector<Contact> contacts;  // of the awake pairs, in their order
+  JointStore joints;
   std::vector<SleepingIsland> islands;
   std::vector<std::uint32_t> free_islands;
   SceneCounts counts;

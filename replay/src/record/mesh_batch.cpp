@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "plumb/heightfield.h"
+#include "plumb/triangle_mesh.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -55,6 +57,39 @@ VisualMesh mesh_of(const HullGeometry& hull) {
     const auto face = hull.face(k);
     for (std::size_t i = 2; i < face.size(); ++i)
       mesh.triangles.emplace_back(face[0], face[i - 1], face[i]);
+  }
+  return mesh;
+}
+
+VisualMesh mesh_of(const TriangleMesh& shape) {
+  VisualMesh mesh;
+  for (std::size_t t = 0; t < shape.geometry->triangle_count(); ++t) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Vec3& corner : shape.geometry->triangle(t))
+      mesh.vertices.push_back(corner.cwiseProduct(shape.scale).cast<float>());
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return mesh;
+}
+
+VisualMesh mesh_of(const HeightfieldGeometry& field) {
+  VisualMesh mesh;
+  const std::uint32_t nx = field.samples_x(), nz = field.samples_z();
+  const float x0 = static_cast<float>(field.lower().x()),
+              z0 = static_cast<float>(field.lower().z());
+  for (std::uint32_t k = 0; k < nz; ++k)
+    for (std::uint32_t i = 0; i < nx; ++i)
+      mesh.vertices.emplace_back(
+          x0 + static_cast<float>(i) * static_cast<float>(field.spacing_x()),
+          static_cast<float>(field.height(i, k)),
+          z0 + static_cast<float>(k) * static_cast<float>(field.spacing_z()));
+  for (std::uint32_t k = 0; k + 1 < nz; ++k) {
+    for (std::uint32_t i = 0; i + 1 < nx; ++i) {
+      if (field.is_hole(i, k)) continue;
+      const std::uint32_t at = k * nx + i;
+      mesh.triangles.emplace_back(at, at + nx, at + nx + 1);
+      mesh.triangles.emplace_back(at, at + nx + 1, at + 1);
+    }
   }
   return mesh;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plumb/replay/recorder.h"
+#include "plumb/shapes.h"
 #include "record/frame.h"
 #include "record/placed_part.h"
 #include "rrd/table.h"
@@ -15,6 +16,8 @@ namespace replay::detail {
 
 // Triangles with a normal of their own, so that edges look like edges.
 VisualMesh mesh_of(const HullGeometry& hull);
+VisualMesh mesh_of(const TriangleMesh& mesh);
+VisualMesh mesh_of(const HeightfieldGeometry& field);
 
 class MeshBatch {
  public:

@@ -1,0 +1,146 @@
+// One joint as the solver sees it: up to eight scalar rows between two bodies (couplings: one row
+// among up to four).
+//
+// Row i has a coordinate C_i of the bodies' poses and its exact gradient, the Jacobian J_i:
+//   C_i' = u_i = J_i V = sum over bodies k of  linear_ik . v_k + angular_ik . w_k
+// An impulse l_i changes the velocities by M^-1 J_i^T l_i, hence u by K l, K = J M^-1 J^T, the
+// inverse of the effective mass. The rows that hold rigidly ("held") come first; the others carry
+// whatever acts along a free coordinate: spring, motor, friction, limits.
+//
+// With h for held and f for free rows the joint is solved as a whole:
+//   L D L^T = K_hh              plus a few roundings of the diagonal (kRegular), so that nothing is
+//                               ever singular, whatever axes of the bodies are locked
+//   W = K_hh^-1 K_hf            what the held rows answer to a unit impulse of a free one
+//   S = K_ff - K_fh W           inverse mass of the free rows with the held ones holding: the true
+//                               one, so that motors, springs and limits are exact about any pivot
+// This is block Gauss-Seidel over joints with a direct solve inside each [Baraff 1996].
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "math/quaternion.h"
+#include "plumb/joint.h"
+#include "solver/contact_row.h"
+#include "solver/joints/joint_memory.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+// What a row measures. x, y, z are the axes of frame A; d leads from origin A to origin B.
+enum class Coordinate : std::uint8_t {
+  LinearX,  // d . x, and so on
+  LinearY,
+  LinearZ,
+  AlignY,  // y . (x of B): zero when the x axes coincide
+  AlignZ,
+  TurnX,  // twice the vector part of the relative quaternion, along the axes of A
+  TurnY,
+  TurnZ,
+  Twist,   // angle about x, whole turns counted
+  SwingY,  // angle of B's x axis about y, in the plane of x and z
+  SwingZ,  // about z, in the plane of x and y
+  Cone,    // angle between the x axes
+  RateX,   // no coordinate, only a rate: relative angular velocity along the axes of A
+  RateY,
+  RateZ,
+  Distance,  // |d|
+  Pulley,
+  Coupling,  // first + ratio * second
+};
+
+struct BodyJacobian {
+  Vec linear, angular;
+};
+
+// One free row's springs and bounds, in the numbers that a pass needs.
+struct FreeRow {
+  bool spring = false;
+  Real rest = 0, stiffness = 0, damping = 0;
+  bool servo = false;  // position motor
+  Real servo_target = 0, servo_frequency = 0, servo_damping_ratio = 0;
+  Real servo_stiffness = 0, servo_damping = 0;
+  bool motor = false;   // velocity motor
+  Real speed = 0;       // [m/s] or [rad/s]
+  Real max_effort = 0;  // of motor or servo
+  Real friction = 0;    // [N] or [N m]
+  bool limited = false, pulls_only = false;
+  Real lower = 0, upper = 0;
+  Real limit_frequency = 0, limit_damping_ratio = 0;
+  Real limit_stiffness = 0, limit_damping = 0;
+  Real restitution = 0;
+  // Soft hold: a spring given by frequency.
+  Real hold_frequency = 0, hold_damping_ratio = 0;
+};
+
+struct JointRow {
+  Coordinate coordinate = Coordinate::LinearX;
+  bool needs_value = true;
+  Real value = 0;           // coordinate where the running substep began
+  Real target = 0;          // of a held row
+  Real rate = 0;            // [m/s] or [rad/s] after the last substep
+  Real approach = 0;        // the same, as a limit that is hit sees it
+  bool may_bounce = false;  // it has restitution, and no limit pushed in the last substep
+  RowImpulses impulses;
+  Real sum[kRowParts] = {};  // [N s] over the step
+};
+
+// A frame pair within the running step.
+struct FramePair {
+  Vec arm_a{0, 0, 0}, arm_b{0, 0, 0};  // [m] centres of mass to the origins, at the step's start
+  Rotation frame_a{0, 0, 0, 1}, frame_b{0, 0, 0, 1};  // R_WA, R_WB of the frames, then
+  Vec between{0, 0, 0};                               // [m] from A's centre of mass to B's, then
+  Coordinate measured = Coordinate::Twist;            // couplings: what is taken from this pair
+  bool counts_turns = false;
+  Real angle = 0;  // [rad] last value of Twist, to count turns from
+};
+
+struct JointBlock {
+  std::uint32_t joint = 0;                   // slot
+  std::uint32_t body[kMaxJointBodies] = {};  // dense; 0: nothing that moves
+  bool moves[kMaxJointBodies] = {};
+  int bodies = 0;         // different ones
+  int place[2 * 2] = {};  // which of them is A and B of each frame pair
+  int pairs = 1;
+  int rows = 0, held = 0;
+  bool split = false;
+  int friction_group = -1;  // first of three rows whose friction is bounded as a vector
+  bool simple = true;       // at most one part acts along any free row
+  int motor_groups = 0;     // rows 0-2 and 3-5 have motors bounded as vectors
+  Real ratio = 1;           // couplings, pulley
+  Vec over_a{0, 0, 0}, over_b{0, 0, 0};  // [m] pulley: from the step's centres of mass
+  Real zero = 0;
+  Real push_linear = 0, push_angular = 0;  // [m/s], [rad/s] largest speed of correction
+  FramePair pair[2];
+  Vec inverse_mass[kMaxJointBodies];
+  Symmetric3<Real> inverse_inertia[kMaxJointBodies];
+  JointRow row[kMaxJointRows];
+  FreeRow free[kMaxFree];
+  BodyJacobian J[kMaxJacobians];         // row by row
+  Real factor[kMaxHeld][kMaxHeld] = {};  // L below the diagonal
+  Real D[kMaxHeld] = {}, D_inverse[kMaxHeld] = {};
+  Real W[kMaxHeld][kMaxFree] = {};              // held x free
+  Real KW[kMaxHeld][kMaxFree] = {};             // K_hf
+  Real S[kMaxFree][kMaxFree] = {};              // free x free
+  Vec force_sum{0, 0, 0}, torque_sum{0, 0, 0};  // [N s], [N m s] on B over the step
+};
+
+// What the joints of a world need while it steps.
+struct JointScratch {
+  std::vector<std::uint32_t> active, order;  // slots of joints that hold something awake
+  std::vector<JointBlock> blocks;            // in colour order
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> colors;  // ranges of blocks
+  std::vector<std::uint64_t> color_mask;                        // per dense index
+  std::vector<std::uint32_t> group;         // per dense index: smallest one connected over joints
+  std::vector<std::uint8_t> group_touches;  // per group: some body of it touches something
+};
+
+// x = K_hh^-1 x.
+inline void solve_held(const JointBlock& block, Real* x) {
+  for (int i = 0; i < block.held; ++i)
+    for (int k = 0; k < i; ++k) x[i] -= block.factor[i][k] * x[k];
+  for (int i = 0; i < block.held; ++i) x[i] *= block.D_inverse[i];
+  for (int i = block.held - 1; i >= 0; --i)
+    for (int k = i + 1; k < block.held; ++k) x[i] -= block.factor[k][i] * x[k];
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,84 @@
+#include "solver/joints/joint_rows.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+FreeRow& RowBuilder::add_free(Coordinate coordinate) {
+  FreeRow& row = block_.free[block_.rows - block_.held];
+  row = {};
+  block_.row[block_.rows].coordinate = coordinate;
+  block_.row[block_.rows].needs_value = false;
+  ++block_.rows;
+  return row;
+}
+
+void RowBuilder::hold(Coordinate coordinate, Real target) {
+  if (!is_soft()) {
+    JointRow& row = block_.row[block_.rows];
+    row.coordinate = coordinate;
+    row.needs_value = true;
+    row.target = target;
+    ++block_.rows;
+    ++block_.held;
+    return;
+  }
+  FreeRow& row = add_free(coordinate);
+  row.spring = true;
+  row.rest = target;
+  row.hold_frequency = softness_.frequency;
+  row.hold_damping_ratio = softness_.damping_ratio;
+  block_.row[block_.rows - 1].needs_value = true;
+}
+
+void set_limit(FreeRow& row, const JointLimit& limit) {
+  row.limited = true;
+  row.lower = limit.lower;
+  row.upper = limit.upper;
+  row.limit_frequency = limit.softness.frequency;
+  row.limit_damping_ratio = limit.softness.damping_ratio;
+  row.restitution = limit.restitution;
+}
+
+FreeRow& RowBuilder::leave(Coordinate coordinate, const JointAxis& axis) {
+  FreeRow& row = add_free(coordinate);
+  int parts = 0;
+  if (axis.spring.has_value()) {
+    row.spring = true;
+    row.rest = axis.spring->rest;
+    row.stiffness = axis.spring->stiffness;
+    row.damping = axis.spring->damping;
+    ++parts;
+  }
+  if (axis.motor.has_value()) {
+    row.max_effort = axis.motor->max_effort;
+    if (axis.motor->mode == JointMotor::Mode::Velocity) {
+      row.motor = true;
+      row.speed = axis.motor->target;
+    } else {
+      row.servo = true;
+      row.servo_target = axis.motor->target;
+      row.servo_frequency = axis.motor->softness.frequency;
+      row.servo_damping_ratio = axis.motor->softness.damping_ratio;
+    }
+    ++parts;
+  }
+  if (axis.friction > Real(0)) {
+    row.friction = axis.friction;
+    ++parts;
+  }
+  if (axis.limit.has_value()) {
+    set_limit(row, *axis.limit);
+    parts += 2;
+  }
+  block_.row[block_.rows - 1].needs_value = row.spring || row.servo || row.limited;
+  if (parts > 1) block_.simple = false;
+  return row;
+}
+
+void RowBuilder::turn_friction(Real torque) {
+  if (!(torque > Real(0))) return;
+  block_.friction_group = block_.rows - block_.held;
+  for (const Coordinate rate : {Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ})
+    add_free(rate).friction = torque;
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail
