@@ -257,43 +257,67 @@ void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass) {
   write(world, block, u);
 }
 
+namespace {
+
+// Coordinates at the end of the substep. How arms turn on the way is seen with velocities that the
+// joint allows: those between passes may be far off, above all the spin of a light body that was
+// warm started with last substep's directions.
+void predict(const WorldState& world, const JointBlock& block, const BlockVelocities& u,
+             const Real* now, Real* end) {
+  Real l[kMaxJointRows] = {};
+  for (int i = 0; i < block.held; ++i) l[i] = -now[i];
+  solve_held(block, l);
+  BlockVelocities allowed = u;
+  apply(block, l, allowed);
+  Moved moved[kMaxJointBodies];
+  for (int k = 0; k < block.bodies; ++k) {
+    if (block.body[k] == 0) continue;
+    const BodyDelta& delta = world.delta[block.body[k]];
+    const SubstepBody& s = world.substep[block.body[k]];
+    moved[k] = drifted({delta.dp, delta.dq}, allowed.v[k], allowed.w[k], s.I, s.I_inverse, world.h);
+  }
+  coordinates_at(block, moved, end);
+  // Back to the velocities as they are, to first order.
+  for (int i = 0; i < block.rows; ++i) {
+    Real taken = 0;
+    if (i < block.held) {
+      taken = now[i];
+    } else {
+      for (int k = 0; k < block.held; ++k) taken -= block.KW[k][i - block.held] * l[k];
+    }
+    end[i] += world.h * taken;
+  }
+}
+
+}  // namespace
+
 void solve_joint(WorldState& world, JointBlock& block, JointPass pass) {
   BlockVelocities u = read(world, block);
   const bool solving = pass == JointPass::Solve;
   const Real h = world.h, inverse_h = Real(1) / h;
-  Real end[kMaxJointRows] = {};
-  if (solving) {
-    Moved moved[kMaxJointBodies];
-    for (int k = 0; k < block.bodies; ++k) {
-      const BodyDelta& delta = world.delta[block.body[k]];
-      if (block.body[k] == 0) continue;
-      const SubstepBody& s = world.substep[block.body[k]];
-      moved[k] = drifted({delta.dp, delta.dq}, u.v[k], u.w[k], s.I, s.I_inverse, h);
-    }
-    coordinates_at(block, moved, end);
-  }
+  Real now[kMaxJointRows] = {}, end[kMaxJointRows] = {};
+  for (int i = 0; i < block.rows; ++i) now[i] = rate(block, i, u);
   Real x[kMaxJointRows] = {}, l[kMaxJointRows] = {};
-  for (int i = 0; i < block.held; ++i) {
-    const JointRow& row = block.row[i];
-    if (solving) {
+  for (int i = 0; i < block.held; ++i) x[i] = now[i];
+  if (solving) {
+    predict(world, block, u, now, end);
+    for (int i = 0; i < block.held; ++i) {
+      const JointRow& row = block.row[i];
       const Real push = is_linear(row.coordinate) ? block.push_linear : block.push_angular;
       x[i] = inverse_h * (end[i] - row.value) + clamp(inverse_h * (row.value - row.target), push);
-    } else {
-      x[i] = rate(block, i, u);
     }
   }
   solve_held(block, x);
   if (solving)
     for (int i = 0; i < block.held; ++i)
-      x[i] += joint_tolerance::kHoldLeak * block.row[i].impulses.first[kHold];
+      x[i] += joint_tolerance::kHoldLeak * (block.row[i].impulses.first[kHold] - x[i]);
 
   FreeSpace s{block, pass, block.split ? Real(0.5) * h : h, h, {}, {}, {}, {}};
   for (int f = 0; f < s.count(); ++f) {
     const int i = block.held + f;
-    const Real now = rate(block, i, u);
     Real answer = 0;  // what the held rows are about to change
     for (int k = 0; k < block.held; ++k) answer += block.KW[k][f] * x[k];
-    s.u[f] = s.u_begin[f] = now - answer;
+    s.u[f] = s.u_begin[f] = now[i] - answer;
     s.end_begin[f] = end[i] - h * answer;
   }
   solve_free(s);
