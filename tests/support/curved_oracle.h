@@ -31,7 +31,7 @@ class Body {
   // The largest n . x over the shape (finite shapes).
   [[nodiscard]] double reach(const V& n) const {
     if (round()) {
-      const double c = n.dot(u_), aside = r_ * std::sqrt(std::max(0.0, 1 - c * c));
+      const double c = n.dot(u_), aside = r_ * (n - c * u_).norm();
       const double core = cylinder() ? h_ * std::abs(c) + aside : std::max(h_ * c, aside - h_ * c);
       return n.dot(p_) + core + radius_;
     }

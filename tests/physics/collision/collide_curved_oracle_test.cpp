@@ -126,7 +126,9 @@ void check_scene(const Scene& s, Worst& worst) {
 
   // Rounding of the result: positions lie as far out as both are large. A face is preferred, a
   // point taken for the deepest, a valley not told from a deeper one: parts of the thickness.
-  const double rounding = 16 * kEpsilon * s.size;
+  // A plane is as well known as its place.
+  const double rounding =
+      16 * kEpsilon * (s.size + (a.half_space() ? 1.0 + std::abs(a.distance(b.middle())) : 0.0));
   const double found = 1e-7 * s.size;  // what the search may miss
   const double chosen = (kFacePreference + kDepthGap + 2 * kDeepestTie) * thickness;
   // Between cores that nearly touch the direction is good to a rounding over their distance.
