@@ -63,7 +63,7 @@ struct Mover {
   Path then;  // from `stop` to `end`, if carried
   Num end = 1;
   std::vector<std::uint32_t>
-      fast_others;  // colliders of other movers near its path, if either is flagged
+      fast_others;  // colliders of other movers near the path of a flagged one
 };
 
 struct Hit {
@@ -229,6 +229,7 @@ std::uint32_t mover_of(const std::vector<Mover>& movers, std::uint32_t body) {
 struct Follower {
   const WorldState& world;
   const std::vector<Mover>& movers;
+  bool any_kinematic;                    // in this world
   std::vector<std::uint32_t> obstacles;  // scratch
 
   // The first collider met on a path from `begin` on. `passed` is a body that does not count.
@@ -241,23 +242,22 @@ struct Follower {
       obstacles.clear();
       const auto consider = [&](std::uint32_t other) {
         const ColliderInfo& collider = world.colliders.info[other];
+        // Flagged bodies find the others; on a second path only what cannot yield counts.
+        const bool dynamic = is_dynamic(world, collider.body);
+        if (dynamic && (passed != kNone || !info.continuous)) return;
         if (collider.body == passed || collider.component.is_sensor ||
             !may_meet(world, slot, other))
           return;
         if (has_parts(own.shape.type) || has_parts(collider.shape.type)) return;
-        if (is_dynamic(world, collider.body)) {
-          if (passed != kNone) return;  // on the second path: only what cannot yield
-          if (mover_of(movers, collider.body) != kNone) {
-            if (info.continuous || world.bodies.info[collider.body].continuous)
-              mover.fast_others.push_back(other);
-            return;
-          }
-          if (!info.continuous) return;
+        if (dynamic && mover_of(movers, collider.body) != kNone) {
+          mover.fast_others.push_back(other);
+          return;
         }
         obstacles.push_back(other);
       };
       along_path(world.static_tree, own, path, mover.start, begin, consider);
-      along_path(world.moving_tree, own, path, mover.start, begin, consider);
+      if (any_kinematic || info.continuous)
+        along_path(world.moving_tree, own, path, mover.start, begin, consider);
       std::sort(obstacles.begin(), obstacles.end());  // not in the order of the tree
       for (const std::uint32_t other : obstacles) {
         const ColliderInfo& collider = world.colliders.info[other];
@@ -444,9 +444,12 @@ void stop_body(WorldState& world, const Mover& mover) {
 void stop_fast_bodies(WorldState& world) {
   std::vector<Mover> movers = movers_of(world);
   if (movers.empty()) return;
+  const bool any_kinematic =
+      std::any_of(world.bodies.info.begin(), world.bodies.info.end(),
+                  [](const BodyInfo& b) { return b.alive && b.type == MotionType::Kinematic; });
   parallel_for(world, static_cast<std::uint32_t>(movers.size()), tolerance::kSweepGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-                 Follower follower{world, movers, {}};
+                 Follower follower{world, movers, any_kinematic, {}};
                  for (std::uint32_t i = begin; i < end; ++i) follower.follow(movers[i]);
                });
   meet_one_another(world, movers);

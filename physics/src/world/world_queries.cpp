@@ -63,7 +63,7 @@ class View {
   [[nodiscard]] Placed placed(std::uint32_t slot) const {
     const ColliderInfo& collider = info(slot);
     const BodyPose& pose = state_.bodies.pose[state_.bodies.info[collider.body].dense];
-    const NumRotation q = normalized(to_num(pose.q));
+    const NumRotation q = to_num(pose.q);  // unit to rounding; the product is normalised
     return {collider.shape, cast<Num>(pose.x - reference_) + rotate(q, to_num(collider.in_body.p)),
             normalized(q * to_num(collider.in_body.q))};
   }
