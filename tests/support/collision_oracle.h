@@ -50,7 +50,7 @@ inline void add_face(Solid& s, std::vector<int> loop) {
   s.faces.push_back(std::move(loop));
 }
 
-// Every finite shape; not the half-space.
+// Every convex bounded shape.
 inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transform& x) {
   Solid s;
   s.radius = static_cast<double>(shape.radius);
@@ -87,6 +87,9 @@ inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transfo
       }
       break;
     case detail::ShapeType::HalfSpace:
+    case detail::ShapeType::Mesh:
+    case detail::ShapeType::Heightfield:
+    case detail::ShapeType::Compound:
       break;
   }
   return s;

@@ -94,7 +94,7 @@ struct ConvexHull {
 
 // A surface, not a solid: what is behind it is not pushed out but near the surface. Only for static
 // and kinematic bodies.
-struct TriangleMesh {
+struct SurfaceMesh {
   std::shared_ptr<const TriangleMeshGeometry> geometry;
   Vec3 scale = Vec3::Ones();  // [-] > 0 each, along the mesh's own axes
 };
@@ -110,6 +110,6 @@ struct Compound {
 };
 
 using Shape =
-    std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, TriangleMesh, Heightfield, Compound>;
+    std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, SurfaceMesh, Heightfield, Compound>;
 
 }  // namespace plumb::inline PLUMB_ABI

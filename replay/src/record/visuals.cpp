@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "plumb/compound.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -38,6 +39,24 @@ double radius_of(const Shape& shape) {
              double{h.geometry->outer_radius()};
     }
     double operator()(const HalfSpace&) const { return 0; }
+    double operator()(const SurfaceMesh& m) const {
+      if (!m.geometry) return 0;
+      const Vec3 far = m.geometry->lower().cwiseAbs().cwiseMax(m.geometry->upper().cwiseAbs());
+      return far.cwiseProduct(m.scale).template cast<double>().norm();
+    }
+    double operator()(const Heightfield& f) const {
+      if (!f.geometry) return 0;
+      const Vec3 far = f.geometry->lower().cwiseAbs().cwiseMax(f.geometry->upper().cwiseAbs());
+      return far.template cast<double>().norm();
+    }
+    double operator()(const Compound& c) const {
+      double radius = 0;
+      if (!c.geometry) return 0;
+      for (const CompoundGeometry::Child& child : c.geometry->children())
+        radius = std::max(radius, child.pose.position.template cast<double>().norm() +
+                                      std::visit(*this, child.shape));
+      return radius;
+    }
   };
   return std::visit(Visitor{}, shape);
 }
@@ -150,6 +169,34 @@ void Visuals::add_collider(rrd::Writer& writer, const Collider& collider, Placed
     part.pose.position += collider.pose.orientation *
                           (normal * (half->offset / length - static_cast<Real>(thickness)));
     batch(Primitive::Box).add_part(part, sizes_of(side, thickness, side));
+  } else if (const auto* mesh = std::get_if<SurfaceMesh>(&collider.shape)) {
+    if (!mesh->geometry) return;
+    // One drawing for each geometry and scale.
+    const MeshAndScale key{mesh->geometry.get(), mesh->scale.x(), mesh->scale.y(), mesh->scale.z()};
+    const auto [found, is_new] = scaled_meshes_.try_emplace(key);
+    if (is_new) {
+      kept_alive_.push_back(mesh->geometry);
+      found->second = std::make_shared<const VisualMesh>(mesh_of(*mesh));
+    }
+    mesh_batch(writer, found->second.get(), *found->second).add_part(part);
+  } else if (const auto* field = std::get_if<Heightfield>(&collider.shape)) {
+    if (!field->geometry) return;
+    const void* key = field->geometry.get();
+    if (mesh_index_.contains(key)) {
+      mesh_batch(writer, key, {}).add_part(part);
+    } else {
+      kept_alive_.push_back(field->geometry);
+      mesh_batch(writer, key, mesh_of(*field->geometry)).add_part(part);
+    }
+  } else if (const auto* compound = std::get_if<Compound>(&collider.shape)) {
+    if (!compound->geometry) return;
+    for (const CompoundGeometry::Child& child : compound->geometry->children()) {
+      Collider piece = collider;
+      piece.shape = child.shape;
+      piece.pose.position += collider.pose.orientation * child.pose.position;
+      piece.pose.orientation = collider.pose.orientation * child.pose.orientation;
+      add_collider(writer, piece, part, role, extent);
+    }
   }
 }
 

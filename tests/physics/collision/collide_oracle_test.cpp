@@ -30,6 +30,9 @@ CollisionShape random_shape(Random& random, ShapeType type, double size) {
     case ShapeType::Hull:
       break;
     case ShapeType::HalfSpace:
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
+    case ShapeType::Compound:
       break;
   }
   const auto geometry =
