@@ -89,6 +89,9 @@ inline Solid solid_of(const detail::CollisionShape& shape, const detail::Transfo
     case detail::ShapeType::HalfSpace:
     case detail::ShapeType::Cylinder:
     case detail::ShapeType::Cone:
+    case detail::ShapeType::Mesh:
+    case detail::ShapeType::Heightfield:
+    case detail::ShapeType::Compound:
       break;
   }
   return s;

@@ -118,7 +118,7 @@ struct ConvexHull {
 
 // A surface, not a solid: what is behind it is not pushed out but near the surface. Only for static
 // and kinematic bodies.
-struct TriangleMesh {
+struct SurfaceMesh {
   std::shared_ptr<const TriangleMeshGeometry> geometry;
   Vec3 scale = Vec3::Ones();  // [-] > 0 each, along the mesh's own axes
 };
@@ -134,7 +134,7 @@ struct Compound {
 };
 
 // Recordings and snapshots name a shape by its place in this list: new ones go to the end.
-using Shape = std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, TriangleMesh, Heightfield,
+using Shape = std::variant<Sphere, Box, Capsule, ConvexHull, HalfSpace, SurfaceMesh, Heightfield,
                            Compound, Cylinder, Cone>;
 
 }  // namespace plumb::inline PLUMB_ABI

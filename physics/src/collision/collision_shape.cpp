@@ -69,7 +69,7 @@ struct Check {
     }
     return {};
   }
-  Status operator()(const TriangleMesh& s) const { return check_mesh(s); }
+  Status operator()(const SurfaceMesh& s) const { return check_mesh(s); }
   Status operator()(const Heightfield& s) const { return check_heightfield(s); }
   Status operator()(const Compound& s) const { return check_compound(s); }
 };
@@ -124,7 +124,7 @@ struct Make {
     shape.offset = s.offset;
     return shape;
   }
-  CollisionShape operator()(const TriangleMesh& s) const { return make_mesh(s); }
+  CollisionShape operator()(const SurfaceMesh& s) const { return make_mesh(s); }
   CollisionShape operator()(const Heightfield& s) const { return make_heightfield(s); }
   CollisionShape operator()(const Compound& s) const { return make_compound(s); }
 };

@@ -146,7 +146,7 @@ ShapeMass mass_of(const Shape& shape, double density) {
   if (std::holds_alternative<HalfSpace>(shape)) {
     return {{}, {StatusCode::BadShape, "a half-space has no finite mass; use it on static bodies"}};
   }
-  if (std::holds_alternative<TriangleMesh>(shape) || std::holds_alternative<Heightfield>(shape)) {
+  if (std::holds_alternative<SurfaceMesh>(shape) || std::holds_alternative<Heightfield>(shape)) {
     return {{},
             {StatusCode::BadShape,
              "a mesh or heightfield is a surface and has no mass; give the body's mass itself"}};

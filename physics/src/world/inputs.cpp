@@ -88,7 +88,7 @@ void append_long(std::vector<double>& out, std::uint64_t v) {
 // A hole's height: NaN would not be equal to itself where inputs and snapshots are compared.
 constexpr double kHole = 1e9;
 
-void append_mesh(std::vector<double>& out, const TriangleMesh& mesh) {
+void append_mesh(std::vector<double>& out, const SurfaceMesh& mesh) {
   std::vector<Vec3> vertices;
   std::vector<std::uint32_t> indices;
   mesh.geometry->copy_input(vertices, indices);
@@ -133,7 +133,7 @@ void append_shape(std::vector<double>& out, const Shape& shape) {
   } else if (const auto* space = std::get_if<HalfSpace>(&shape)) {
     append(out, space->normal);
     append_all(out, {as_number(space->offset)});
-  } else if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+  } else if (const auto* mesh = std::get_if<SurfaceMesh>(&shape)) {
     append_mesh(out, *mesh);
   } else if (const auto* heightfield = std::get_if<Heightfield>(&shape)) {
     append_heightfield(out, *heightfield->geometry);
@@ -147,7 +147,7 @@ void append_shape(std::vector<double>& out, const Shape& shape) {
   }
 }
 
-bool read_mesh(NumberReader& in, TriangleMesh& mesh) {
+bool read_mesh(NumberReader& in, SurfaceMesh& mesh) {
   mesh.scale = in.vector();
   std::vector<Vec3> vertices;
   std::vector<std::uint32_t> indices;
@@ -222,7 +222,7 @@ Shape read_shape(NumberReader& in, bool& ok) {
       return HalfSpace{normal, in.real()};
     }
     case 5: {
-      TriangleMesh mesh;
+      SurfaceMesh mesh;
       if (read_mesh(in, mesh)) return mesh;
       break;
     }

@@ -7,7 +7,7 @@ namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
 const void* geometry_of(const Shape& shape) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return mesh->geometry.get();
+  if (const auto* mesh = std::get_if<SurfaceMesh>(&shape)) return mesh->geometry.get();
   if (const auto* field = std::get_if<Heightfield>(&shape)) return field->geometry.get();
   if (const auto* compound = std::get_if<Compound>(&shape)) return compound->geometry.get();
   return nullptr;
@@ -17,7 +17,7 @@ const void* geometry_of(const Shape& shape) {
 
 std::uint32_t GeometryTable::add(const Shape& shape, double (&numbers)[4]) {
   Shape carrier = shape;
-  if (auto* mesh = std::get_if<TriangleMesh>(&carrier)) {
+  if (auto* mesh = std::get_if<SurfaceMesh>(&carrier)) {
     for (int i = 0; i < 3; ++i) numbers[i] = static_cast<double>(mesh->scale[i]);
     mesh->scale = Vec3::Ones();
   }
@@ -62,7 +62,7 @@ bool GeometryTable::take(std::uint32_t index, std::uint32_t kind, const double (
                          Shape& out) const {
   if (index >= shapes_.size() || shapes_[index].index() != kind) return false;
   out = shapes_[index];
-  if (auto* mesh = std::get_if<TriangleMesh>(&out)) {
+  if (auto* mesh = std::get_if<SurfaceMesh>(&out)) {
     for (int i = 0; i < 3; ++i) mesh->scale[i] = static_cast<Real>(numbers[i]);
   }
   return true;

@@ -42,7 +42,7 @@ Status check_collider(const Collider& collider, MotionType type) {
   if (std::holds_alternative<HalfSpace>(collider.shape) && type != MotionType::Static)
     return {StatusCode::BadShape,
             "a half-space has no end and no mass: only static bodies may have one"};
-  if ((std::holds_alternative<TriangleMesh>(collider.shape) ||
+  if ((std::holds_alternative<SurfaceMesh>(collider.shape) ||
        std::holds_alternative<Heightfield>(collider.shape)) &&
       type == MotionType::Dynamic)
     return {StatusCode::BadShape,

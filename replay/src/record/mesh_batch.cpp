@@ -1,6 +1,7 @@
 #include "record/mesh_batch.h"
 
 #include <array>
+#include <cmath>
 
 #include "plumb/heightfield.h"
 #include "plumb/triangle_mesh.h"
@@ -61,36 +62,38 @@ VisualMesh mesh_of(const HullGeometry& hull) {
   return mesh;
 }
 
-VisualMesh mesh_of(const TriangleMesh& shape) {
+VisualMesh mesh_of(const SurfaceMesh& surface) {
   VisualMesh mesh;
-  for (std::size_t t = 0; t < shape.geometry->triangle_count(); ++t) {
+  for (std::size_t t = 0; t < surface.geometry->triangle_count(); ++t) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const Vec3& corner : shape.geometry->triangle(t))
-      mesh.vertices.push_back(corner.cwiseProduct(shape.scale).cast<float>());
+    for (const Vec3& corner : surface.geometry->triangle(t))
+      mesh.vertices.push_back(corner.cwiseProduct(surface.scale).template cast<float>());
     mesh.triangles.emplace_back(first, first + 1, first + 2);
   }
+  mesh.color = kStaticColor;
   return mesh;
 }
 
 VisualMesh mesh_of(const HeightfieldGeometry& field) {
   VisualMesh mesh;
-  const std::uint32_t nx = field.samples_x(), nz = field.samples_z();
-  const float x0 = static_cast<float>(field.lower().x()),
-              z0 = static_cast<float>(field.lower().z());
-  for (std::uint32_t k = 0; k < nz; ++k)
-    for (std::uint32_t i = 0; i < nx; ++i)
-      mesh.vertices.emplace_back(
-          x0 + static_cast<float>(i) * static_cast<float>(field.spacing_x()),
-          static_cast<float>(field.height(i, k)),
-          z0 + static_cast<float>(k) * static_cast<float>(field.spacing_z()));
-  for (std::uint32_t k = 0; k + 1 < nz; ++k) {
-    for (std::uint32_t i = 0; i + 1 < nx; ++i) {
-      if (field.is_hole(i, k)) continue;
-      const std::uint32_t at = k * nx + i;
-      mesh.triangles.emplace_back(at, at + nx, at + nx + 1);
-      mesh.triangles.emplace_back(at, at + nx + 1, at + 1);
+  for (std::uint32_t k = 0; k < field.samples_z(); ++k) {
+    for (std::uint32_t i = 0; i < field.samples_x(); ++i) {
+      const Real height = field.height(i, k);
+      // A sample without height belongs to holes only; it stands somewhere, in no triangle.
+      mesh.vertices.emplace_back(static_cast<float>(static_cast<Real>(i) * field.spacing_x()),
+                                 std::isnan(height) ? 0.0F : static_cast<float>(height),
+                                 static_cast<float>(static_cast<Real>(k) * field.spacing_z()));
     }
   }
+  const auto at = [&](std::uint32_t i, std::uint32_t k) { return k * field.samples_x() + i; };
+  for (std::uint32_t k = 0; k + 1 < field.samples_z(); ++k) {
+    for (std::uint32_t i = 0; i + 1 < field.samples_x(); ++i) {
+      if (field.is_hole(i, k)) continue;
+      mesh.triangles.emplace_back(at(i, k), at(i, k + 1), at(i + 1, k + 1));
+      mesh.triangles.emplace_back(at(i, k), at(i + 1, k + 1), at(i + 1, k));
+    }
+  }
+  mesh.color = kStaticColor;
   return mesh;
 }
 

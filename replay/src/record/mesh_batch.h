@@ -16,7 +16,7 @@ namespace replay::detail {
 
 // Triangles with a normal of their own, so that edges look like edges.
 VisualMesh mesh_of(const HullGeometry& hull);
-VisualMesh mesh_of(const TriangleMesh& mesh);
+VisualMesh mesh_of(const SurfaceMesh& surface);
 VisualMesh mesh_of(const HeightfieldGeometry& field);
 
 class MeshBatch {

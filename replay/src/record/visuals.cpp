@@ -30,28 +30,9 @@ Eigen::Vector3f sizes_of(double a, double b, double c) {
   return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
 }
 
-double corner_distance(const Vec3& lower, const Vec3& upper) {
-  return double{lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).norm()};
-}
-
 // Of a sphere around the shape's own origin [m]; 0 for a half-space.
 double radius_of(const Shape& shape) {
   struct Visitor {
-    double operator()(const TriangleMesh& m) const {
-      if (!m.geometry) return 0;
-      return corner_distance(m.geometry->lower().cwiseProduct(m.scale),
-                             m.geometry->upper().cwiseProduct(m.scale));
-    }
-    double operator()(const Heightfield& h) const {
-      return h.geometry ? corner_distance(h.geometry->lower(), h.geometry->upper()) : 0;
-    }
-    double operator()(const Compound& c) const {
-      double farthest = 0;
-      if (!c.geometry) return farthest;
-      for (const CompoundGeometry::Child& child : c.geometry->children())
-        farthest = std::max(farthest, double{child.pose.position.norm()} + radius_of(child.shape));
-      return farthest;
-    }
     double operator()(const Sphere& s) const { return s.radius; }
     double operator()(const Box& b) const {
       return b.half_extents.template cast<double>().norm() + double{b.rounding};
@@ -69,6 +50,24 @@ double radius_of(const Shape& shape) {
       return std::hypot(double{c.half_length}, double{c.radius}) + double{c.rounding};
     }
     double operator()(const HalfSpace&) const { return 0; }
+    double operator()(const SurfaceMesh& m) const {
+      if (!m.geometry) return 0;
+      const Vec3 far = m.geometry->lower().cwiseAbs().cwiseMax(m.geometry->upper().cwiseAbs());
+      return far.cwiseProduct(m.scale).template cast<double>().norm();
+    }
+    double operator()(const Heightfield& f) const {
+      if (!f.geometry) return 0;
+      const Vec3 far = f.geometry->lower().cwiseAbs().cwiseMax(f.geometry->upper().cwiseAbs());
+      return far.template cast<double>().norm();
+    }
+    double operator()(const Compound& c) const {
+      double radius = 0;
+      if (!c.geometry) return 0;
+      for (const CompoundGeometry::Child& child : c.geometry->children())
+        radius = std::max(radius, child.pose.position.template cast<double>().norm() +
+                                      std::visit(*this, child.shape));
+      return radius;
+    }
   };
   return std::visit(Visitor{}, shape);
 }
@@ -207,29 +206,6 @@ void Visuals::add_collider(rrd::Writer& writer, const Collider& collider, Placed
     const void* key = hull->geometry.get();
     if (!mesh_index_.contains(key)) kept_alive_.push_back(hull->geometry);
     mesh_batch(writer, key, mesh_of(*hull->geometry)).add_part(part);
-  } else if (const auto* mesh = std::get_if<TriangleMesh>(&collider.shape)) {
-    if (!mesh->geometry) return;
-    kept_alive_.push_back(mesh->geometry);
-    const std::vector<double> key{
-        -1, static_cast<double>(reinterpret_cast<std::uintptr_t>(mesh->geometry.get())),
-        mesh->scale.x(), mesh->scale.y(), mesh->scale.z()};
-    std::shared_ptr<const VisualMesh>& drawn = shape_meshes_[key];
-    if (!drawn) drawn = std::make_shared<const VisualMesh>(mesh_of(*mesh));
-    mesh_batch(writer, drawn.get(), *drawn).add_part(part);
-  } else if (const auto* field = std::get_if<Heightfield>(&collider.shape)) {
-    if (!field->geometry) return;
-    const void* key = field->geometry.get();
-    if (!mesh_index_.contains(key)) kept_alive_.push_back(field->geometry);
-    mesh_batch(writer, key, mesh_of(*field->geometry)).add_part(part);
-  } else if (const auto* compound = std::get_if<Compound>(&collider.shape)) {
-    if (!compound->geometry) return;
-    for (const CompoundGeometry::Child& child : compound->geometry->children()) {
-      Collider piece = collider;
-      piece.shape = child.shape;
-      piece.pose.position += collider.pose.orientation * child.pose.position;
-      piece.pose.orientation = collider.pose.orientation * child.pose.orientation;
-      add_collider(writer, piece, part, role, extent);
-    }
   } else if (const auto* half = std::get_if<HalfSpace>(&collider.shape)) {
     const double side = kGroundRadii * extent.radius, thickness = side * kGroundThickness;
     const Real length = half->normal.norm();
@@ -239,6 +215,34 @@ void Visuals::add_collider(rrd::Writer& writer, const Collider& collider, Placed
     part.pose.position += collider.pose.orientation *
                           (normal * (half->offset / length - static_cast<Real>(thickness)));
     batch(Primitive::Box).add_part(part, sizes_of(side, thickness, side));
+  } else if (const auto* mesh = std::get_if<SurfaceMesh>(&collider.shape)) {
+    if (!mesh->geometry) return;
+    // One drawing for each geometry and scale.
+    const MeshAndScale key{mesh->geometry.get(), mesh->scale.x(), mesh->scale.y(), mesh->scale.z()};
+    const auto [found, is_new] = scaled_meshes_.try_emplace(key);
+    if (is_new) {
+      kept_alive_.push_back(mesh->geometry);
+      found->second = std::make_shared<const VisualMesh>(mesh_of(*mesh));
+    }
+    mesh_batch(writer, found->second.get(), *found->second).add_part(part);
+  } else if (const auto* field = std::get_if<Heightfield>(&collider.shape)) {
+    if (!field->geometry) return;
+    const void* key = field->geometry.get();
+    if (mesh_index_.contains(key)) {
+      mesh_batch(writer, key, {}).add_part(part);
+    } else {
+      kept_alive_.push_back(field->geometry);
+      mesh_batch(writer, key, mesh_of(*field->geometry)).add_part(part);
+    }
+  } else if (const auto* compound = std::get_if<Compound>(&collider.shape)) {
+    if (!compound->geometry) return;
+    for (const CompoundGeometry::Child& child : compound->geometry->children()) {
+      Collider piece = collider;
+      piece.shape = child.shape;
+      piece.pose.position += collider.pose.orientation * child.pose.position;
+      piece.pose.orientation = collider.pose.orientation * child.pose.orientation;
+      add_collider(writer, piece, part, role, extent);
+    }
   }
 }
 

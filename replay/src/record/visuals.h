@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "plumb/replay/recorder.h"
@@ -48,6 +49,8 @@ class Visuals {
   std::vector<std::shared_ptr<const void>> kept_alive_;  // so that no address is met twice
   std::map<BodyId, std::shared_ptr<const VisualMesh>> shown_as_;
   std::map<std::vector<double>, std::shared_ptr<const VisualMesh>> shape_meshes_;  // by sizes
+  using MeshAndScale = std::tuple<const void*, Real, Real, Real>;
+  std::map<MeshAndScale, std::shared_ptr<const VisualMesh>> scaled_meshes_;
 };
 
 }  // namespace replay::detail

@@ -32,6 +32,9 @@ CollisionShape random_shape(Random& random, ShapeType type, double size) {
     case ShapeType::HalfSpace:
     case ShapeType::Cylinder:
     case ShapeType::Cone:
+    case ShapeType::Mesh:
+    case ShapeType::Heightfield:
+    case ShapeType::Compound:
       break;
   }
   const auto geometry =

@@ -41,7 +41,7 @@ Triangle triangle_of(const V& a, const V& b, const V& c, const Transform& x) {
 
 Ground ground_of(const Shape& shape, const Transform& placed, double size) {
   Ground g{make_collision_shape(shape), placed, {}, size};
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+  if (const auto* mesh = std::get_if<SurfaceMesh>(&shape)) {
     for (std::size_t t = 0; t < mesh->geometry->triangle_count(); ++t) {
       const auto c = mesh->geometry->triangle(t);
       const auto at = [&](std::size_t i) -> V {
@@ -131,7 +131,7 @@ Ground random_ground(Random& random, double size) {
                          random.below(3) == 0 ? Rotation{0, 0, 0, 1} : random.rotation()};
   const auto sized = [&](Soup soup) {
     for (Vec3& v : soup.vertices) v *= static_cast<Real>(size);
-    return Shape{TriangleMesh{surfaces::made(soup)}};
+    return Shape{SurfaceMesh{surfaces::made(soup)}};
   };
   switch (kind) {
     case 0:
@@ -143,8 +143,8 @@ Ground random_ground(Random& random, double size) {
     case 3:
       return ground_of(sized(surfaces::ball_soup(2, 7)), placed, size);
     case 4: {
-      TriangleMesh mesh{surfaces::made(surfaces::box_soup(2, 1, 1.5)),
-                        Vec3(1, Real(1.5), 1) * static_cast<Real>(size)};
+      SurfaceMesh mesh{surfaces::made(surfaces::box_soup(2, 1, 1.5)),
+                       Vec3(1, Real(1.5), 1) * static_cast<Real>(size)};
       return ground_of(mesh, placed, size);
     }
     default:
@@ -280,7 +280,7 @@ TEST(SurfaceOracle, EveryNormalLiesInTheConeOfItsPlace) {
 TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
   Random random(29);
   const CollisionShape mesh =
-      make_collision_shape(TriangleMesh{surfaces::made(surfaces::box_soup(2, 1, 1.5))});
+      make_collision_shape(SurfaceMesh{surfaces::made(surfaces::box_soup(2, 1, 1.5))});
   const CollisionShape box = make_collision_shape(Box{Vec3(2, 1, Real(1.5))});
   int touched = 0;
   for (int trial = 0; trial < 8000; ++trial) {
@@ -322,7 +322,7 @@ TEST(SurfaceOracle, APlaneOfTrianglesIsAHalfSpace) {
   std::vector<CollisionShape> cuts;
   for (const auto& [nx, nz] : {std::pair{1, 1}, {7, 5}, {40, 1}, {1, 60}, {30, 30}})
     cuts.push_back(make_collision_shape(
-        TriangleMesh{surfaces::made(surfaces::grid(-4, 4, -4, 4, nx, nz, surfaces::level, true))}));
+        SurfaceMesh{surfaces::made(surfaces::grid(-4, 4, -4, 4, nx, nz, surfaces::level, true))}));
   cuts.push_back(make_collision_shape(
       Heightfield{surfaces::field(41, 41, 0.2, [](int, int) { return 0.0; })}));
   for (int trial = 0; trial < 1500; ++trial) {

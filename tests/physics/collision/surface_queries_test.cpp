@@ -56,7 +56,7 @@ struct Scene {
   std::vector<std::array<V, 3>> triangles;  // in the shape's frame
 };
 Scene mesh_scene(const Soup& soup, const Vec3& scale) {
-  Scene s{TriangleMesh{surfaces::made(soup), scale}, {}};
+  Scene s{SurfaceMesh{surfaces::made(soup), scale}, {}};
   for (std::size_t i = 0; i < soup.indices.size(); i += 3) {
     const auto at = [&](std::size_t k) -> V {
       return soup.vertices[soup.indices[i + k]].cwiseProduct(scale).cast<double>();
@@ -149,7 +149,7 @@ TEST(SurfaceRays, HitWhatBruteForceHits) {
 // Through vertices and along edges of a grid nothing slips.
 TEST(SurfaceRays, PassNoSeam) {
   const CollisionShape mesh = make_collision_shape(
-      TriangleMesh{surfaces::made(surfaces::grid(-2, 2, -2, 2, 8, 8, surfaces::level, true))});
+      SurfaceMesh{surfaces::made(surfaces::grid(-2, 2, -2, 2, 8, 8, surfaces::level, true))});
   const CollisionShape field =
       make_collision_shape(Heightfield{surfaces::field(9, 9, 0.5, [](int, int) { return 0.0; })});
   const Rotation upright{0, 0, 0, 1};
@@ -274,7 +274,7 @@ TEST(SurfaceGeometry, RefusesWhatCannotWorkAndSaysWhy) {
   };
   EXPECT_EQ(compound(Sphere{}, {}), StatusCode::Ok);
   EXPECT_EQ(compound(HalfSpace{}, {}), StatusCode::BadShape);
-  EXPECT_EQ(compound(TriangleMesh{surfaces::made(soup)}, {}), StatusCode::BadShape);
+  EXPECT_EQ(compound(SurfaceMesh{surfaces::made(soup)}, {}), StatusCode::BadShape);
   EXPECT_EQ(compound(surfaces::compound({surfaces::child(Sphere{}, V::Zero())}), {}),
             StatusCode::BadShape);
   EXPECT_EQ(compound(Sphere{Real(-1)}, {}), StatusCode::BadShape);
@@ -282,10 +282,10 @@ TEST(SurfaceGeometry, RefusesWhatCannotWorkAndSaysWhy) {
   bent.orientation.coeffs() *= Real(2);
   EXPECT_EQ(compound(Sphere{}, bent), StatusCode::OutOfRange);
 
-  EXPECT_EQ(check_shape(TriangleMesh{}).code, StatusCode::BadShape);
+  EXPECT_EQ(check_shape(SurfaceMesh{}).code, StatusCode::BadShape);
   EXPECT_EQ(check_shape(Heightfield{}).code, StatusCode::BadShape);
   EXPECT_EQ(check_shape(Compound{}).code, StatusCode::BadShape);
-  const TriangleMesh turned{surfaces::made(soup), Vec3(1, -1, 1)};
+  const SurfaceMesh turned{surfaces::made(soup), Vec3(1, -1, 1)};
   EXPECT_EQ(check_shape(turned).code, StatusCode::OutOfRange);
 }
 

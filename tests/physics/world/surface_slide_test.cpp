@@ -21,7 +21,7 @@ struct Ground {
 };
 std::vector<Ground> grounds() {
   const auto mesh = [](int nx, int nz) {
-    return TriangleMesh{made(grid(-10, 120, -20, 20, nx, nz, level, true))};
+    return SurfaceMesh{made(grid(-10, 120, -20, 20, nx, nz, level, true))};
   };
   return {
       {"two triangles", mesh(1, 1)},
@@ -129,7 +129,7 @@ TEST(SurfaceSlide, ABallSwingsInAValley) {
   const double R = 10, r = 0.5, amplitude = 0.2, l = R - r;
   const auto round = [R](double x, double) { return R - std::sqrt(R * R - x * x); };
   const std::vector<Ground> valleys = {
-      {"mesh", TriangleMesh{made(grid(-4, 4, -2, 2, 400, 2, round))}},
+      {"mesh", SurfaceMesh{made(grid(-4, 4, -2, 2, 400, 2, round))}},
       {"heightfield",
        Heightfield{field(401, 101, 0.02, [&](int i, int) { return round(-4 + 0.02 * i, 0); })},
        {-4, 0, -1}}};

@@ -17,11 +17,11 @@ constexpr double kDt = 1.0 / 60;  // [s]
 
 double hills(double x, double z) { return std::sin(0.7 * x) * std::cos(0.6 * z); }
 
-TriangleMesh hill_mesh() { return {made(grid(-10, 10, -10, 10, 30, 30, hills))}; }
+SurfaceMesh hill_mesh() { return {made(grid(-10, 10, -10, 10, 30, 30, hills))}; }
 
 TEST(SurfaceWorld, NothingFastPasses) {
   const std::vector<std::pair<Shape, Vector3d>> walls = {
-      {TriangleMesh{made(grid(-5, 5, -5, 5, 7, 7, level, true))}, {0, 0, 0}},
+      {SurfaceMesh{made(grid(-5, 5, -5, 5, 7, 7, level, true))}, {0, 0, 0}},
       {Heightfield{field(11, 11, 1, [](int, int) { return 0.0; })}, {-5, 0, -5}}};
   oracle::Random random(3);
   for (const auto& [shape, origin] : walls) {
@@ -59,7 +59,7 @@ TEST(SurfaceWorld, AHeavyLoadDoesNotPushThrough) {
   for (const int cells : {1, 40}) {
     PhysicsWorld world(no_sleep());
     add(world, body_at(at(0, 0, 0), MotionType::Static),
-        with(TriangleMesh{made(grid(-3, 3, -3, 3, cells, cells, level))}));
+        with(SurfaceMesh{made(grid(-3, 3, -3, 3, cells, cells, level))}));
     const BodyId small = add(world, body_at(at(0.1, 0.1, 0.1)), with(cube(0.1), {}, 125));
     add(world, body_at(at(0.1, 0.7, 0.1)), with(cube(0.5), {}, 100));
     run(world, 3, kDt);
@@ -105,7 +105,7 @@ TEST(SurfaceWorld, AMovingMeshCarries) {
   RigidBody lift = body_at(at(0, 0, 0), MotionType::Kinematic);
   lift.linear_velocity = vec(0.5, 1, 0);
   const BodyId floor =
-      add(world, lift, with(TriangleMesh{made(grid(-3, 3, -3, 3, 9, 9, level))}, material(0.8)));
+      add(world, lift, with(SurfaceMesh{made(grid(-3, 3, -3, 3, 9, 9, level))}, material(0.8)));
   RigidBody rider = body_at(at(0.2, 0.25, 0.3));
   rider.linear_velocity = lift.linear_velocity;
   const BodyId id = add(world, rider, with(cube(0.25), material(0.8)));
@@ -196,7 +196,7 @@ TEST(Compounds, MoveAsSeveralColliders) {
 TEST(Compounds, StandOnMeshesAndOnOneAnother) {
   PhysicsWorld world(no_sleep());
   add(world, body_at(at(0, 0, 0), MotionType::Static),
-      with(TriangleMesh{made(grid(-3, 3, -3, 3, 13, 13, level))}, material(0.6)));
+      with(SurfaceMesh{made(grid(-3, 3, -3, 3, 13, 13, level))}, material(0.6)));
   const BodyId low = add(world, body_at(at(0.1, 0.06, 0.2)), with(table(), material(0.6)));
   const BodyId high = add(world, body_at(at(0.1, 0.06 + 0.61, 0.2)), with(table(), material(0.6)));
   run(world, 4, kDt);
@@ -208,9 +208,9 @@ TEST(Compounds, StandOnMeshesAndOnOneAnother) {
 // --- replay and threads ---
 
 std::vector<BodyId> build_mixture(PhysicsWorld& world) {
-  const TriangleMesh ground = hill_mesh();
+  const SurfaceMesh ground = hill_mesh();
   add(world, body_at(at(0, 0, 0), MotionType::Static), with(ground, material(0.5)));
-  TriangleMesh small = ground;  // shared geometry, another size
+  SurfaceMesh small = ground;  // shared geometry, another size
   small.scale = Vec3(Real(0.2), Real(0.2), Real(0.2));
   RigidBody plate = body_at(at(0, 3, 0), MotionType::Kinematic);
   plate.angular_velocity = vec(0, 0.7, 0);

@@ -19,7 +19,7 @@ NumBox local_bounds(const CollisionShape& shape) {
 
 }  // namespace
 
-Status check_mesh(const TriangleMesh& s) {
+Status check_mesh(const SurfaceMesh& s) {
   if (s.geometry == nullptr)
     return {StatusCode::BadShape, "a mesh needs a geometry from TriangleMeshGeometry::create"};
   if (!s.scale.allFinite()) return {StatusCode::NotFinite, "a mesh's scale must be finite"};
@@ -47,7 +47,7 @@ Status check_compound(const Compound& s) {
   return {};
 }
 
-CollisionShape make_mesh(const TriangleMesh& s) {
+CollisionShape make_mesh(const SurfaceMesh& s) {
   CollisionShape shape;
   shape.type = ShapeType::Mesh;
   shape.mesh = &s.geometry->data();

@@ -19,10 +19,10 @@ struct CompoundData {
   Real thickness = 0;                // [m] of the thinnest child
 };
 
-Status check_mesh(const TriangleMesh& shape);
+Status check_mesh(const SurfaceMesh& shape);
 Status check_heightfield(const Heightfield& shape);
 Status check_compound(const Compound& shape);
-CollisionShape make_mesh(const TriangleMesh& shape);
+CollisionShape make_mesh(const SurfaceMesh& shape);
 CollisionShape make_heightfield(const Heightfield& shape);
 CollisionShape make_compound(const Compound& shape);
 
