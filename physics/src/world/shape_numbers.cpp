@@ -28,7 +28,7 @@ struct ToNumbers {
   void operator()(const HalfSpace& x) const {
     set(x.normal.x(), x.normal.y(), x.normal.z(), x.offset);
   }
-  void operator()(const TriangleMesh&) const { s.hull = geometries.add(shape, s.n); }
+  void operator()(const SurfaceMesh&) const { s.hull = geometries.add(shape, s.n); }
   void operator()(const Heightfield&) const { s.hull = geometries.add(shape, s.n); }
   void operator()(const Compound&) const { s.hull = geometries.add(shape, s.n); }
   void operator()(const Cylinder& x) const { set(x.half_length, x.radius, x.rounding); }

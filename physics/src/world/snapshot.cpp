@@ -38,7 +38,7 @@ template <class Table>
 void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentum& m, BodyForce& f,
                 Real& gravity_scale, bool& awake) {
   t("generation", i.generation);
-  t("flags", i.alive, i.disabled, i.has_own_mass, i.can_sleep, awake);
+  t("flags", i.alive, i.disabled, i.has_own_mass, i.can_sleep, i.continuous, awake);
   t("type", i.type);
   t("locks", i.locks.linear_x, i.locks.linear_y, i.locks.linear_z, i.locks.angular_x,
     i.locks.angular_y, i.locks.angular_z);
