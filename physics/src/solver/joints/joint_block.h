@@ -122,6 +122,7 @@ struct JointBlock {
   Real KW[kMaxHeld][kMaxFree] = {};             // K_hf
   Real S[kMaxFree][kMaxFree] = {};              // free x free
   Vec force_sum{0, 0, 0}, torque_sum{0, 0, 0};  // [N s], [N m s] on B over the step
+  Real correction = 1;  // part of the position error that one substep takes away
 };
 
 // What the joints of a world need while it steps.

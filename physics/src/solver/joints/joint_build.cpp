@@ -230,6 +230,9 @@ void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot)
   for (int k = 0; k < block.bodies; ++k)
     if (block.moves[k])
       block.split = world.joints.scratch->group_touches[scratch.group[block.body[k]]] == 0;
+  for (int k = 0; k < block.bodies; ++k)
+    if (block.moves[k] && std::popcount(scratch.color_mask[block.body[k]]) > 1)
+      block.correction = joint_tolerance::kSharedCorrection;
   recall_impulses(world, joint.memory, block);
   prepare_joint(world, block);
   note_rates(block, world);

@@ -304,7 +304,8 @@ void solve_joint(WorldState& world, JointBlock& block, JointPass pass) {
     for (int i = 0; i < block.held; ++i) {
       const JointRow& row = block.row[i];
       const Real push = is_linear(row.coordinate) ? block.push_linear : block.push_angular;
-      x[i] = inverse_h * (end[i] - row.value) + clamp(inverse_h * (row.value - row.target), push);
+      x[i] = inverse_h * (end[i] - row.value) +
+             clamp(block.correction * inverse_h * (row.value - row.target), push);
     }
   }
   solve_held(block, x);

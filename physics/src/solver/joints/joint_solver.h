@@ -2,7 +2,8 @@
 //
 // The equations of the held rows, with the coordinate C predicted at the end of the substep from
 // the velocities that are being solved for (turned arms and gyroscopic terms included):
-//   solve   (C_end - C)/h + clamp(C/h) + e K l = 0     l: the impulse so far; e: the small leak
+//   solve   (C_end - C)/h + clamp(b C/h) + e K l = 0   l: the whole impulse; e: the small leak;
+//           b = 1, or 0.2 where joints share a body (kSharedCorrection)
 //   relax   J V = 0 where the drift has ended
 // so that the position error is removed to second order in every substep: this is RATTLE
 // [Andersen 1983] with one Newton step a pass, and what is left over is removed in the next one.
