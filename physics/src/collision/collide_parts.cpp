@@ -46,13 +46,14 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
       each([&](SurfaceTriangle& t) { return touch_capsule(on, t, contact); });
       return;
     case ShapeType::Box:
-    case ShapeType::Hull: {
+    case ShapeType::Hull:
+    case ShapeType::Cylinder:
+    case ShapeType::Cone: {
+      if (on.shape.type != ShapeType::Box && on.shape.hull == nullptr) return;
       const PlacedPolyhedron polyhedron(on.shape, on.R, on.p);
       each([&](SurfaceTriangle& t) { return touch_polyhedron(on, polyhedron, t, contact); });
       return;
     }
-    case ShapeType::Cylinder:
-    case ShapeType::Cone:
     case ShapeType::HalfSpace:
     case ShapeType::Mesh:
     case ShapeType::Heightfield:
@@ -73,13 +74,17 @@ void collide_surface(const Piece& surface, const Piece& convex, bool swapped, Re
       shape.type == ShapeType::Hull ? R * to_num(shape.hull->interior_point()) + at.p : at.p;
   const Num thickness = Num(0.5) * static_cast<Num>(smallest_thickness(shape));
   const NumBox box = bounds_in(shape, at, static_cast<Num>(margin));
+  // Cores with flat faces meet the triangles at the distance of their rounding.
+  const bool round = shape.type == ShapeType::Sphere || shape.type == ShapeType::Capsule;
+  const Num rounding = round ? Num(0) : static_cast<Num>(shape.radius);
   out.group_count = 0;
   const auto run = [&](const auto& triangles) {
     const ConvexOnSurface on{shape,
                              at.p,
                              at.q,
                              R,
-                             static_cast<Num>(margin),
+                             static_cast<Num>(margin) + rounding,
+                             rounding,
                              thickness,
                              middle,
                              (held ? kBehindWhenHeld : kBehind) * thickness,

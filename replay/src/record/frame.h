@@ -24,6 +24,7 @@ struct Frame {
   std::vector<SensorEvent> sensors;      //
   std::vector<SleepEvent> sleep;         //
   std::vector<QuarantineEvent> refused;  //
+  std::vector<JointBreakEvent> broken;   //
   StepReport report;
   EnergyReport energy;
   std::uint64_t state_hash = 0;
@@ -32,7 +33,7 @@ struct Frame {
   bool has_snapshot = false;  // else what is in it is an older one
   Snapshot snapshot;          // after the step
 
-  [[nodiscard]] Events events() const { return {touches, hits, sensors, sleep, refused}; }
+  [[nodiscard]] Events events() const { return {touches, hits, sensors, sleep, refused, broken}; }
 };
 
 }  // namespace replay::detail

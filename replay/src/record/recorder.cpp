@@ -179,6 +179,7 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   frame.sensors.assign(events.sensors.begin(), events.sensors.end());
   frame.sleep.assign(events.sleep.begin(), events.sleep.end());
   frame.refused.assign(events.quarantined.begin(), events.quarantined.end());
+  frame.broken.assign(events.broken_joints.begin(), events.broken_joints.end());
   frame.has_snapshot = false;
   if (!frame.moved) return;
   world.copy_body_states(frame.bodies);

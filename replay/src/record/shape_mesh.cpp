@@ -50,6 +50,9 @@ struct Mesher {
   Result operator()(const Sphere&) const { return {}; }
   Result operator()(const Capsule&) const { return {}; }
   Result operator()(const HalfSpace&) const { return {}; }
+  Result operator()(const SurfaceMesh&) const { return {}; }
+  Result operator()(const Heightfield&) const { return {}; }
+  Result operator()(const Compound&) const { return {}; }
   Result operator()(const Box& box) const {
     if (!(box.rounding > Real(0))) return {};
     const Eigen::Vector3f half = box.half_extents.cast<float>();

@@ -57,6 +57,8 @@ void TextLog::add_events(const Frame& frame) {
     add_line(frame, "ERROR", std::string("step refused: ") + frame.report.status.message);
   for (const QuarantineEvent& event : events.quarantined)
     add_line(frame, "ERROR", body_name(event.body) + ": not finite, put back and disabled");
+  for (const JointBreakEvent& event : events.broken_joints)
+    add_line(frame, "WARN", "joint " + std::to_string(event.joint.index) + " breaks");
   for (const HitEvent& event : events.hits)
     if (takes_line())
       add_line(frame, "INFO",

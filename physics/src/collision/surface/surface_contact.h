@@ -13,7 +13,8 @@ struct ConvexOnSurface {
   NumVec p;  // [m]
   NumRotation q;
   NumMatrix R;
-  Num margin;     // [m]
+  Num margin;     // [m] of the core
+  Num rounding;   // [m] that a core with flat faces is grown by
   Num thickness;  // [m] half of the smallest
   NumVec middle;  // [m]
   Num behind;     // [m] how far behind a triangle the middle may lie
