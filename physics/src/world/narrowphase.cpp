@@ -67,8 +67,11 @@ Real reach_of(const WorldState& world, const Pair& pair) {
   const Real speed = length(vb.v - va.v) + length(va.w) * a.radius + length(vb.w) * b.radius;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Real g = static_cast<Real>(world.settings.gravity.norm());
-  return std::min(world.dt * speed, tolerance::kSweptFraction * thickness) +
-         world.dt * world.dt * g;
+  // Surfaces are not followed after the step: they are seen coming from as far as it takes.
+  const bool surface = is_surface(world.colliders.info[pair.collider_a()].shape.type) ||
+                       is_surface(world.colliders.info[pair.collider_b()].shape.type);
+  const Real near = surface ? kUnbounded : tolerance::kSweptFraction * thickness;
+  return std::min(world.dt * speed, near) + world.dt * world.dt * g;
 }
 
 // How far along the relative path of the step [0, 1] two shapes meet, without rotation; negative if

@@ -55,6 +55,10 @@ inline Joint joint_at(const PhysicsWorld& world, BodyId a, BodyId b, const Joint
   return joint;
 }
 
+// [kg m^2] of the bob: nearly a point in double. In single precision an inertia of 1e-6 m l^2
+// leaves the joint's response no digits, and such a pendulum gains energy; a hundredth holds.
+constexpr double kBobMoment = bar(1e-6, 1e-2);
+
 // A bob on a massless arm, hung from the world's origin; swings in the x-y plane.
 struct Pendulum {
   PhysicsWorld world;
@@ -63,7 +67,7 @@ struct Pendulum {
   double length, inertia;
 
   Pendulum(const JointKind& kind, double amplitude, double l = 1, double mass = 1,
-           double moment = 1e-6, const WorldSettings& settings = {})
+           double moment = kBobMoment, const WorldSettings& settings = {})
       : world(settings), length(l), inertia(moment + mass * l * l) {
     bob = add_body(world, l * Vector3d(std::sin(amplitude), -std::cos(amplitude), 0), mass,
                    Vector3d::Constant(moment), turn(amplitude, Vector3d::UnitZ()));

@@ -43,7 +43,7 @@ TEST(RoundShapes, CylindersAndConesStandForAMinute) {
         add_floor(world);
       }
       const double half =
-          shape.index() == 5
+          std::holds_alternative<Cylinder>(shape)
               ? std::get<Cylinder>(shape).half_length + std::get<Cylinder>(shape).rounding
               : std::get<Cone>(shape).half_length + std::get<Cone>(shape).rounding;
       const BodyId body = add(world, body_at(at(0, half, 0)), with(shape));
