@@ -16,6 +16,11 @@ void note_input(WorldState& world, InputKind kind, std::uint64_t target, Fill&& 
   world.inputs.push_back(std::move(record));
 }
 
+inline void append_all(std::vector<double>& out, std::initializer_list<double> numbers) {
+  out.insert(out.end(), numbers.begin(), numbers.end());
+}
+inline double as_number(Real a) { return static_cast<double>(a); }
+
 void append(std::vector<double>& out, const Vec3& v);
 void append_position(std::vector<double>& out, const Pos3& p);
 void append(std::vector<double>& out, const Quat& q);
@@ -48,5 +53,9 @@ class NumberReader {
   std::size_t at_ = 0;
   bool ok_ = true;
 };
+
+// Shapes with their geometry (shape_inputs.cpp). Reading clears `ok` where the numbers make none.
+void append_shape(std::vector<double>& out, const Shape& shape);
+Shape read_shape(NumberReader& in, bool& ok);
 
 }  // namespace plumb::inline PLUMB_ABI::detail
