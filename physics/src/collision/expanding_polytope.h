@@ -1,6 +1,6 @@
 // Depth of overlap of two convex cores by growing a polytope inside their Minkowski difference
-// [van den Bergen 2001]. Its nearest face is a lower bound of the depth, the farthest point along any
-// direction an upper bound: it stops when the two agree to a tolerance, with the best direction
+// [van den Bergen 2001]. Its nearest face is a lower bound of the depth, the farthest point along
+// any direction an upper bound: it stops when the two agree to a tolerance, with the best direction
 // seen.
 #pragma once
 

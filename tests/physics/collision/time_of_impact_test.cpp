@@ -314,7 +314,8 @@ TEST(Sweep, FindsTheTurnNearestToTheOneExpected) {
   Random random(6);
   for (int i = 0; i < 2000; ++i) {
     const NumVec turn = num(random.uniform(0, 40) * random.direction());
-    const NumRotation q0 = normalized(rotation(random)), q1 = normalized(from_rotation_vector(turn) * q0);
+    const NumRotation q0 = normalized(rotation(random)),
+                      q1 = normalized(from_rotation_vector(turn) * q0);
     const NumVec noise = num(random.uniform(0, 1) * random.direction());
     const NumVec found = turn_between(q0, q1, turn + noise);
     // Near whole turns the axis is lost with the sine of half the angle.

@@ -118,8 +118,8 @@ plumb_status plumb_add_box(plumb_world* world, plumb_body body, const double hal
 /* Along the y axis of the shape. */
 plumb_status plumb_add_capsule(plumb_world* world, plumb_body body, double half_length,
                                double radius, const plumb_surface* surface, plumb_collider* out);
-/* About the y axis of the shape, the origin in the middle; a cone's apex points to +y. rounding: >= 0,
- * radius of a ball added outside of these sizes [m]. */
+/* About the y axis of the shape, the origin in the middle; a cone's apex points to +y. rounding: >=
+ * 0, radius of a ball added outside of these sizes [m]. */
 plumb_status plumb_add_cylinder(plumb_world* world, plumb_body body, double half_length,
                                 double radius, double rounding, const plumb_surface* surface,
                                 plumb_collider* out);
