@@ -56,8 +56,8 @@ inline constexpr int kMaxImpactPasses = 64;
 // A pair that moves more than this fraction of the smaller thickness in a step is swept [-]: its
 // manifold is taken where the surfaces first meet, so that nothing thin is passed unseen.
 inline constexpr Real kSweptFraction = Real(0.25);
-// Advances of a sweep against shapes with parts [-]; each at least halves what a sphere's sweep still
-// misses.
+// Advances of a sweep against shapes with parts [-]; each at least halves what a sphere's sweep
+// still misses.
 inline constexpr int kSweepSteps = 32;
 // Surfaces this near count as met [-], as a fraction of the slop.
 inline constexpr Real kSweepTolerance = Real(0.5);
