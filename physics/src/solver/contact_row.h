@@ -37,12 +37,13 @@ struct SubstepBody {
   Symmetric3<Real> I{};  // [kg m^2] world axes at the start of the step, as the rows see it
   Symmetric3<Real> I_inverse{};
   Vec acceleration{0, 0, 0};        // [m/s^2] from gravity and forces
+  Real stiffness = 0;               // [rad^2/s^2] of what pulls at it through joints
   Real load = 0, sliding_load = 0;  // [N s] normal impulse, and the part of it that slides
   bool constrained = false;         // some row holds it
   bool contacts_changed = false;    // the set of loaded points is not that of the last substep
   bool bounced = false;             // in this substep
   bool jointed = false;             // some joint holds it
-  bool split = false;               // ... and no contact: forces act half before, half after
+  bool split = false;               // ... and nothing that hangs on it touches anything
 };
 
 // Spring-like softness of a contact, from a frequency and a damping ratio [Catto 2024]:

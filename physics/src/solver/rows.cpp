@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "collision/rolling.h"
+#include "math/symmetric_inverse.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
 #include "world/tolerances.h"
@@ -101,17 +102,6 @@ Softness contact_softness(const WorldState& world, Real thickness, bool against_
 // lie nearly on a line, or a locked axis leaves nothing to solve for.
 constexpr Real kSolvable = Real(1e-5);
 
-bool invert(const Symmetric3<Real>& m, Symmetric3<Real>& out) {
-  const Real cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz,
-             cxz = m.xy * m.yz - m.xz * m.yy;
-  const Real determinant = m.xx * cxx + m.xy * cxy + m.xz * cxz;
-  if (!(determinant > kSolvable * m.xx * m.yy * m.zz)) return false;
-  const Real d = Real(1) / determinant;
-  out = {d * cxx, d * (m.xx * m.zz - m.xz * m.xz), d * (m.xx * m.yy - m.xy * m.xy), d * cxy,
-         d * cxz, d * (m.xy * m.xz - m.xx * m.yz)};
-  return true;
-}
-
 // The response of the points to their impulses is A = G K G^T with the rows (1, b_i, -a_i) of G.
 // Its pseudo-inverse is H K^-1 H^T, H = G (G^T G)^-1; for two points A itself is inverted.
 void make_block(ContactRow<Real>& row) {
@@ -140,7 +130,7 @@ void make_block(ContactRow<Real>& row) {
     gram.xz -= a;
     gram.yz -= a * b;
   }
-  if (!invert(gram, gram_inverse) || !invert(row.K_normal, K_inverse)) return;
+  if (!invert(gram, kSolvable, gram_inverse) || !invert(row.K_normal, kSolvable, K_inverse)) return;
   Vec h[4];
   for (int i = 0; i < row.count; ++i)
     h[i] = gram_inverse * Vec{Real(1), row.points[i].b, -row.points[i].a};

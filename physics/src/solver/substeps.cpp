@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "motion/body_motion.h"
+#include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
 #include "solver/joints/joint_stages.h"
 #include "world/tolerances.h"
@@ -65,72 +66,25 @@ void write_velocities(WorldState& world, const ContactRow<Real>& row,
   }
 }
 
-Rotation orientation_now(const WorldState& world, std::uint32_t i) {
-  return world.delta[i].dq * world.bodies.pose[i].q;
-}
-
-void kick(WorldState& world, std::uint32_t i) {
-  SubstepBody& s = world.substep[i];
-  if (!s.constrained) return;
-  BodyVelocity& velocity = world.bodies.velocity[i];
-  const BodyForce& force = world.bodies.force[i];
-  Vec& L = world.bodies.momentum[i].L;
-  s.v_start = velocity.v;
-  s.L_start = L;
-  // Forces on bodies that only joints hold act half before and half after the drift.
-  const Real time = s.split ? Real(0.5) * world.h : world.h;
-  if (force.linear_damping > Real(0)) {
-    const DampedMotion damped = damped_motion(force.linear_damping, time);
-    velocity.v = damped.decay * velocity.v + damped.gain * s.acceleration;
-  } else {
-    velocity.v += time * s.acceleration;
-  }
-  if (force.angular_damping > Real(0)) {
-    const DampedMotion damped = damped_motion(force.angular_damping, time);
-    L = damped.decay * L + damped.gain * force.torque;
-  } else {
-    L += time * force.torque;
-  }
-  velocity.w = angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), L);
-  s.w_in = velocity.w;
-}
-
-// What the rows did to w becomes angular momentum, by the same inertia with which they saw the
-// body.
-void collect_momentum(WorldState& world, std::uint32_t i) {
-  SubstepBody& s = world.substep[i];
-  world.bodies.momentum[i].L += s.I * (world.bodies.velocity[i].w - s.w_in);
-}
+// Bodies that only joints hold have a loop of their own (joints/joint_flight.cpp).
+bool in_contact_loop(const SubstepBody& s) { return s.constrained && !s.split; }
 
 void drift(WorldState& world, std::uint32_t i) {
-  BodyVelocity& velocity = world.bodies.velocity[i];
-  BodyDelta& delta = world.delta[i];
   SubstepBody& s = world.substep[i];
-  if (s.constrained) {
-    collect_momentum(world, i);
-    delta.dp += world.h * velocity.v;
-    Rotation q = orientation_now(world, i);
-    Vec& L = world.bodies.momentum[i].L;
-    turn_freely(world.settings.rotation, world.bodies.mass[i], q, L, world.h);
-    delta.dq = normalized(q * conjugate(world.bodies.pose[i].q));
-    velocity.w = angular_velocity_of(world.bodies.mass[i], q, L);
-    s.w_in = velocity.w;
-    if (s.split) {
-      s.I = world_inertia(world.bodies.mass[i], q);
-      s.I_inverse = world_inverse_inertia(world.bodies.mass[i], q);
-      kick(world, i);
-    }
+  if (in_contact_loop(s)) {
+    drift(world, i, world.h);
     s.load = Real(0);
     s.sliding_load = Real(0);
   } else if (!(world.bodies.mass[i].mass > Real(0))) {  // kinematic: as told
-    delta.dp += world.h * velocity.v;
-    delta.dq = normalized(from_rotation_vector(world.h * velocity.w) * delta.dq);
+    BodyDelta& delta = world.delta[i];
+    delta.dp += world.h * world.bodies.velocity[i].v;
+    delta.dq = normalized(from_rotation_vector(world.h * world.bodies.velocity[i].w) * delta.dq);
   }
 }
 
 void finish_substep(WorldState& world, std::uint32_t i) {
   SubstepBody& s = world.substep[i];
-  if (!s.constrained) return;
+  if (!in_contact_loop(s)) return;
   collect_momentum(world, i);
   const bool changed = s.contacts_changed;
   s.contacts_changed = false;
@@ -256,7 +210,10 @@ void run_substeps(WorldState& world) {
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (!world.bouncing_rows.empty()) run_impacts(world);
-    for_awake_bodies(world, [&](std::uint32_t i) { kick(world, i); });
+    for_awake_bodies(world, [&](std::uint32_t i) {
+      if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
+    });
+    if (joints) fly_joint_groups(world);
     if (joints) warm_start_joints(world);
     for_rows_by_color(world, [&](ContactRow<Real>& row) {
       if (row.skip) return;

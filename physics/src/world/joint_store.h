@@ -11,7 +11,7 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-struct JointScratch;  // solver/joints/joint_block.h
+struct JointScratch;  // solver/joints/joint_scratch.h
 
 struct JointInfo {
   std::uint32_t generation = 0;

@@ -5,6 +5,7 @@
 #include "math/eigen_bridge.h"
 #include "solver/joints/coordinates.h"
 #include "solver/joints/joint_rows.h"
+#include "solver/joints/joint_scratch.h"
 #include "world/inputs.h"
 #include "world/joint_inputs.h"
 #include "world/joint_world.h"

@@ -55,9 +55,8 @@ inline Joint joint_at(const PhysicsWorld& world, BodyId a, BodyId b, const Joint
   return joint;
 }
 
-// [kg m^2] of the bob: nearly a point in double. In single precision an inertia of 1e-6 m l^2
-// leaves the joint's response no digits, and such a pendulum gains energy; a hundredth holds.
-constexpr double kBobMoment = bar(1e-6, 1e-2);
+// [kg m^2] of the bob: nearly a point.
+constexpr double kBobMoment = 1e-6;
 
 // A bob on a massless arm, hung from the world's origin; swings in the x-y plane.
 struct Pendulum {

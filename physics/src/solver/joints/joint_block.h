@@ -7,17 +7,11 @@
 // inverse of the effective mass. The rows that hold rigidly ("held") come first; the others carry
 // whatever acts along a free coordinate: spring, motor, friction, limits.
 //
-// With h for held and f for free rows the joint is solved as a whole:
-//   L D L^T = K_hh              plus a few roundings of the diagonal (kRegular), so that nothing is
-//                               ever singular, whatever axes of the bodies are locked
-//   W = K_hh^-1 K_hf            what the held rows answer to a unit impulse of a free one
-//   S = K_ff - K_fh W           inverse mass of the free rows with the held ones holding: the true
-//                               one, so that motors, springs and limits are exact about any pivot
-// This is block Gauss-Seidel over joints with a direct solve inside each [Baraff 1996].
+// Held rows and what acts on free ones are solved together over all joints that hang together
+// (joint_system.h, joint_laws.h).
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "math/quaternion.h"
 #include "plumb/joint.h"
@@ -81,6 +75,7 @@ struct JointRow {
   Real approach = 0;        // the same, as a limit that is hit sees it
   bool may_bounce = false;  // it has restitution, and no limit pushed in the last substep
   RowImpulses impulses;
+  RowImpulses kept;          // before the last of Newton's steps
   Real sum[kRowParts] = {};  // [N s] over the step
 };
 
@@ -104,44 +99,24 @@ struct JointBlock {
   int rows = 0, held = 0;
   bool split = false;
   int friction_group = -1;  // first of three rows whose friction is bounded as a vector
-  bool simple = true;       // at most one part acts along any free row
   int motor_groups = 0;     // rows 0-2 and 3-5 have motors bounded as vectors
   Real ratio = 1;           // couplings, pulley
   Vec over_a{0, 0, 0}, over_b{0, 0, 0};  // [m] pulley: from the step's centres of mass
   Real zero = 0;
-  Real push_linear = 0, push_angular = 0;  // [m/s], [rad/s] largest speed of correction
+  Real size = 0;  // [m] longest arm or radius: what linear errors are measured by
   FramePair pair[2];
   Vec inverse_mass[kMaxJointBodies];
   Symmetric3<Real> inverse_inertia[kMaxJointBodies];
   JointRow row[kMaxJointRows];
   FreeRow free[kMaxFree];
-  BodyJacobian J[kMaxJacobians];         // row by row
-  Real factor[kMaxHeld][kMaxHeld] = {};  // L below the diagonal
-  Real D[kMaxHeld] = {}, D_inverse[kMaxHeld] = {};
-  Real W[kMaxHeld][kMaxFree] = {};              // held x free
-  Real KW[kMaxHeld][kMaxFree] = {};             // K_hf
-  Real S[kMaxFree][kMaxFree] = {};              // free x free
+  BodyJacobian J[kMaxJacobians];  // row by row
+  // [1/kg] or [1/(kg m^2)] of a free coordinate while this joint's held rows hold: the mass that a
+  // spring given by its frequency sees. Known where it is asked for.
+  bool needs_inverse_mass = false;
+  Real free_inverse_mass[kMaxFree] = {};
   Vec force_sum{0, 0, 0}, torque_sum{0, 0, 0};  // [N s], [N m s] on B over the step
+  Real elapsed = 0;     // [s] of the substep; what is not dynamic has moved on for so long
   Real correction = 1;  // part of the position error that one substep takes away
 };
-
-// What the joints of a world need while it steps.
-struct JointScratch {
-  std::vector<std::uint32_t> active, order;  // slots of joints that hold something awake
-  std::vector<JointBlock> blocks;            // in colour order
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> colors;  // ranges of blocks
-  std::vector<std::uint64_t> color_mask;                        // per dense index
-  std::vector<std::uint32_t> group;         // per dense index: smallest one connected over joints
-  std::vector<std::uint8_t> group_touches;  // per group: some body of it touches something
-};
-
-// x = K_hh^-1 x.
-inline void solve_held(const JointBlock& block, Real* x) {
-  for (int i = 0; i < block.held; ++i)
-    for (int k = 0; k < i; ++k) x[i] -= block.factor[i][k] * x[k];
-  for (int i = 0; i < block.held; ++i) x[i] *= block.D_inverse[i];
-  for (int i = block.held - 1; i >= 0; --i)
-    for (int k = i + 1; k < block.held; ++k) x[i] -= block.factor[k][i] * x[k];
-}
 
 }  // namespace plumb::inline PLUMB_ABI::detail

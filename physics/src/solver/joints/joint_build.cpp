@@ -1,9 +1,4 @@
-// Blocks of the joints that are awake, in colour order: no two of a colour share a dynamic body.
-//
-// A joint is "split" where none of the bodies that it is connected with, over any number of joints,
-// touches anything. Forces then act half before and half after the drift, and so do the joints'
-// impulses: a symmetric scheme, second order in the substep, that keeps energy over long times
-// [Andersen 1983]. Where there are contacts, forces act before the drift, as contacts need it.
+// Blocks of the joints that are awake.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,6 +6,7 @@
 
 #include "collision/collision_shape.h"
 #include "math/eigen_bridge.h"
+#include "solver/joints/joint_groups.h"
 #include "solver/joints/joint_kinds.h"
 #include "solver/joints/joint_poses.h"
 #include "solver/joints/joint_rows.h"
@@ -21,111 +17,6 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
-
-constexpr int kJointColors = 64;  // bits of a mask; the last one is the overflow
-
-// The slots of all bodies that a joint acts on: two, or the four of the joints that it couples.
-struct JointBodies {
-  std::uint32_t slot[kMaxJointBodies];
-  int count;
-};
-JointBodies bodies_of(const JointStore& joints, const JointInfo& joint) {
-  JointId first, second;
-  if (!coupled_joints(joint.component.kind, first, second))
-    return {{joint.body_a, joint.body_b}, 2};
-  const JointInfo& p = joints.info[first.index];
-  const JointInfo& q = joints.info[second.index];
-  return {{p.body_a, p.body_b, q.body_a, q.body_b}, 4};
-}
-
-bool is_dynamic_awake(const WorldState& world, std::uint32_t slot) {
-  return slot != kWorldBody && world.bodies.is_awake(slot) &&
-         world.bodies.mass[world.bodies.info[slot].dense].mass > Real(0);
-}
-std::uint32_t dense_of(const WorldState& world, std::uint32_t slot) {
-  if (slot == kWorldBody) return 0;
-  const std::uint32_t dense = world.bodies.info[slot].dense;
-  return dense < world.bodies.awake_end ? dense : 0;
-}
-
-// Which bodies hang together over joints, and whether any of a group touches something.
-class Groups {
- public:
-  explicit Groups(std::vector<std::uint32_t>& parents) : parents_(parents) {}
-  std::uint32_t root(std::uint32_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void link(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t>& parents_;
-};
-
-void find_groups(WorldState& world, const std::vector<std::uint32_t>& active) {
-  JointStore& joints = world.joints;
-  JointScratch& scratch = *joints.scratch;
-  std::vector<std::uint32_t>& parents = scratch.group;
-  parents.resize(world.bodies.awake_end);
-  std::iota(parents.begin(), parents.end(), 0u);
-  Groups groups(parents);
-  for (const std::uint32_t slot : active) {
-    const JointBodies bodies = bodies_of(joints, joints.info[slot]);
-    std::uint32_t first = 0;
-    for (int k = 0; k < bodies.count; ++k) {
-      if (!is_dynamic_awake(world, bodies.slot[k])) continue;
-      const std::uint32_t dense = dense_of(world, bodies.slot[k]);
-      if (first != 0) groups.link(first, dense);
-      first = dense;
-    }
-  }
-  scratch.group_touches.assign(world.bodies.awake_end, 0);
-  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i)
-    if (world.substep[i].constrained) scratch.group_touches[groups.root(i)] = 1;
-  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i)
-    parents[i] = groups.root(i);
-}
-
-// Greedy, in the order of slots, as for contacts.
-void color_joints(WorldState& world, const std::vector<std::uint32_t>& active) {
-  JointStore& joints = world.joints;
-  JointScratch& scratch = *joints.scratch;
-  std::vector<std::uint64_t>& mask = scratch.color_mask;
-  mask.assign(world.bodies.awake_end, 0);
-  std::vector<std::uint32_t> counts(kJointColors + 1, 0);
-  std::vector<std::uint8_t> color_of(active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    const JointBodies bodies = bodies_of(joints, joints.info[active[i]]);
-    std::uint64_t used = 0;
-    for (int k = 0; k < bodies.count; ++k)
-      if (is_dynamic_awake(world, bodies.slot[k])) used |= mask[dense_of(world, bodies.slot[k])];
-    const int color = std::min(std::countr_one(used), kJointColors - 1);
-    if (color < kJointColors - 1)
-      for (int k = 0; k < bodies.count; ++k)
-        if (is_dynamic_awake(world, bodies.slot[k]))
-          mask[dense_of(world, bodies.slot[k])] |= std::uint64_t{1} << color;
-    color_of[i] = static_cast<std::uint8_t>(color);
-    ++counts[static_cast<std::size_t>(color) + 1];
-  }
-  scratch.colors.clear();
-  for (std::size_t c = 0; c < kJointColors; ++c) {
-    const std::uint32_t begin = counts[c], size = counts[c + 1];
-    counts[c + 1] += begin;
-    if (size == 0) continue;
-    if (c + 1 < kJointColors) {
-      scratch.colors.emplace_back(begin, begin + size);
-    } else {  // beyond the last colour: one after the other
-      for (std::uint32_t i = 0; i < size; ++i)
-        scratch.colors.emplace_back(begin + i, begin + i + 1);
-    }
-  }
-  scratch.order.resize(active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) scratch.order[counts[color_of[i]]++] = active[i];
-}
 
 int place_of(JointBlock& block, const WorldState& world, std::uint32_t slot) {
   const std::uint32_t dense = dense_of(world, slot);
@@ -169,14 +60,13 @@ void place_joint(const WorldState& world, JointBlock& block, int p, const JointI
   pair.measured = measured_by(joint.component.kind);
 }
 
-// Lengths by which corrections are bounded: the longest arm, or the size of the bodies.
-void bound_corrections(const WorldState& world, const JointInfo& joint, JointBlock& block) {
+// The longest arm, or the size of the bodies.
+void measure(const WorldState& world, const JointInfo& joint, JointBlock& block) {
   Real size = std::max(length(block.pair[0].arm_a), length(block.pair[0].arm_b));
   for (const std::uint32_t slot : {joint.body_a, joint.body_b})
     if (slot != kWorldBody && world.bodies.info[slot].radius < kUnbounded)
       size = std::max(size, world.bodies.info[slot].radius);
-  block.push_linear = size > Real(0) ? joint_tolerance::kPushSizesPerSecond * size : kUnlimited;
-  block.push_angular = joint_tolerance::kPushTurn;
+  block.size = size > Real(0) ? size : Real(1);
 }
 
 // Remembered impulses belong to a substep of the last length, and to one of the two schemes.
@@ -200,9 +90,9 @@ void recall_impulses(const WorldState& world, const JointMemory& memory, JointBl
   }
 }
 
-void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot) {
+void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot,
+                 const JointPiece& piece) {
   const JointStore& joints = world.joints;
-  const JointScratch& scratch = *joints.scratch;
   const JointInfo& joint = joints.info[slot];
   block = JointBlock{};
   block.joint = slot;
@@ -224,15 +114,16 @@ void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot)
   block.zero = joint.memory.zero;
   for (int p = 0; p < block.pairs; ++p)
     block.pair[p].counts_turns = block.pair[p].measured == Coordinate::Twist;
-  bound_corrections(world, joint, block);
+  measure(world, joint, block);
   RowBuilder rows(block, joint.component.softness);
   std::visit([&](const auto& kind) { make_rows(kind, rows); }, joint.component.kind);
-  for (int k = 0; k < block.bodies; ++k)
-    if (block.moves[k])
-      block.split = world.joints.scratch->group_touches[scratch.group[block.body[k]]] == 0;
-  for (int k = 0; k < block.bodies; ++k)
-    if (block.moves[k] && std::popcount(scratch.color_mask[block.body[k]]) > 1)
-      block.correction = joint_tolerance::kSharedCorrection;
+  block.split = piece.split;
+  if (!piece.whole) block.correction = joint_tolerance::kSharedCorrection;
+  block.needs_inverse_mass = block.friction_group >= 0 || block.motor_groups > 0;
+  for (int f = 0; f < block.rows - block.held; ++f)
+    block.needs_inverse_mass = block.needs_inverse_mass || block.free[f].hold_frequency > Real(0) ||
+                               block.free[f].servo_frequency > Real(0) ||
+                               block.free[f].limit_frequency > Real(0);
   recall_impulses(world, joint.memory, block);
   prepare_joint(world, block);
   note_rates(block, world);
@@ -244,33 +135,32 @@ void build_joints(WorldState& world) {
   JointStore& joints = world.joints;
   if (joints.scratch == nullptr) joints.scratch = std::make_shared<JointScratch>();
   JointScratch& scratch = *joints.scratch;
-  std::vector<std::uint32_t>& active = scratch.active;
-  active.clear();
-  for (std::uint32_t slot = 0; slot < joints.info.size(); ++slot) {
-    if (!joints.info[slot].alive) continue;
-    const JointBodies bodies = bodies_of(joints, joints.info[slot]);
-    bool moves = false;
-    for (int k = 0; k < bodies.count; ++k) moves = moves || is_dynamic_awake(world, bodies.slot[k]);
-    if (moves) active.push_back(slot);
-  }
-  find_groups(world, active);
-  color_joints(world, active);
-  const std::uint32_t count = static_cast<std::uint32_t>(scratch.order.size());
-  for (const std::uint32_t slot : active) {
-    const JointBodies bodies = bodies_of(joints, joints.info[slot]);
-    for (int k = 0; k < bodies.count; ++k) {
-      if (!is_dynamic_awake(world, bodies.slot[k])) continue;
-      const std::uint32_t dense = dense_of(world, bodies.slot[k]);
-      world.substep[dense].constrained = true;
-      world.substep[dense].jointed = true;
-      world.substep[dense].split = scratch.group_touches[scratch.group[dense]] == 0;
+  group_joints(world);
+  JointSystem& system = scratch.system;
+  scratch.first_joint.assign(world.bodies.awake_end, kNone);
+  for (const JointPiece& piece : system.pieces) {
+    for (std::uint32_t p = piece.begin; p < piece.end; ++p) {
+      const JointMembers& members = scratch.members[scratch.order[p]];
+      for (int k = 0; k < members.count; ++k) {
+        SubstepBody& s = world.substep[members.body[k]];
+        s.constrained = true;
+        s.jointed = true;
+        s.split = piece.split;
+        scratch.first_joint[members.body[k]] = std::min(scratch.first_joint[members.body[k]], p);
+      }
     }
   }
-  scratch.blocks.resize(count);
-  parallel_for(world, count, joint_tolerance::kJointGrain,
-               [&](std::uint32_t begin, std::uint32_t end) {
+  scratch.blocks.resize(scratch.order.size());
+  system.diagonal.resize(scratch.order.size());
+  system.rows.resize(std::size_t{kMaxJointRows} * scratch.order.size());
+  system.entry.resize(system.entry_row.size());
+  system.work.resize(system.entry_row.size());
+  parallel_for(world, static_cast<std::uint32_t>(system.pieces.size()),
+               joint_tolerance::kPieceGrain, [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = begin; i < end; ++i)
-                   build_block(world, scratch.blocks[i], scratch.order[i]);
+                   for (std::uint32_t p = system.pieces[i].begin; p < system.pieces[i].end; ++p)
+                     build_block(world, scratch.blocks[p], scratch.active[scratch.order[p]],
+                                 system.pieces[i]);
                });
 }
 

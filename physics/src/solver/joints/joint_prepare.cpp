@@ -1,7 +1,7 @@
 // Where a joint stands: coordinates, Jacobians, and the factored effective masses.
 #include <cmath>
 
-#include "solver/joints/joint_poses.h"
+#include "solver/joints/joint_motion.h"
 #include "solver/joints/joint_solver.h"
 #include "solver/joints/joint_tolerances.h"
 #include "world/world_state.h"
@@ -43,55 +43,36 @@ void make_jacobians(JointBlock& block, const Moved* moved) {
   }
 }
 
-// K = J M^-1 J^T, upper triangle.
-void make_response(const JointBlock& block, Real K[kMaxJointRows][kMaxJointRows]) {
-  for (int i = 0; i < block.rows; ++i) {
-    for (int j = i; j < block.rows; ++j) K[i][j] = Real(0);
+// S = K_ff - K_fh K_hh^-1 K_hf of each free row by itself: its inverse mass while the held ones
+// hold.
+void make_inverse_masses(JointBlock& block) {
+  const auto response = [&](int i, int j) {
+    double K = 0;
     for (int k = 0; k < block.bodies; ++k) {
       if (!block.moves[k]) continue;
-      const BodyJacobian& from = block.J[i * block.bodies + k];
-      const Vec linear = multiply_each(block.inverse_mass[k], from.linear);
-      const Vec angular = block.inverse_inertia[k] * from.angular;
-      for (int j = i; j < block.rows; ++j) {
-        const BodyJacobian& to = block.J[j * block.bodies + k];
-        K[i][j] += dot(linear, to.linear) + dot(angular, to.angular);
-      }
+      const BodyJacobian& a = block.J[i * block.bodies + k];
+      const BodyJacobian& b = block.J[j * block.bodies + k];
+      K += static_cast<double>(dot(multiply_each(block.inverse_mass[k], a.linear), b.linear) +
+                               dot(block.inverse_inertia[k] * a.angular, b.angular));
     }
-  }
-}
-
-// L D L^T of the held rows, then W and S (joint_block.h). A row that moves nothing, because every
-// axis along it is locked, gets no impulse.
-void make_factors(JointBlock& block, const Real K[kMaxJointRows][kMaxJointRows]) {
-  const int held = block.held, free = block.rows - held;
-  auto& L = block.factor;
-  for (int i = 0; i < held; ++i) {
-    Real d = K[i][i] + joint_tolerance::kRegular * K[i][i];
-    for (int k = 0; k < i; ++k) d -= L[i][k] * L[i][k] * block.D[k];
-    const bool acts = d > Real(0);
-    block.D[i] = acts ? d : Real(0);
-    block.D_inverse[i] = acts ? Real(1) / d : Real(0);
-    for (int j = i + 1; j < held; ++j) {
-      Real entry = K[i][j];
-      for (int k = 0; k < i; ++k) entry -= L[i][k] * L[j][k] * block.D[k];
-      L[j][i] = block.D_inverse[i] * entry;
+    return K;
+  };
+  // Rows orthogonalized one after the other: L of L D L^T, the free row last.
+  double L[kMaxHeld + 1][kMaxHeld], D[kMaxHeld];
+  const auto eliminate = [&](int row, int place) {
+    double d = response(row, row);
+    const double size = d;
+    for (int j = 0; j < std::min(place, block.held); ++j) {
+      double entry = response(row, j);
+      for (int k = 0; k < j; ++k) entry -= L[place][k] * L[j][k] * D[k];
+      L[place][j] = D[j] > 0 ? entry / D[j] : 0;
+      d -= L[place][j] * L[place][j] * D[j];
     }
-  }
-  for (int f = 0; f < free; ++f) {
-    Real column[kMaxJointRows];
-    for (int i = 0; i < held; ++i) column[i] = block.KW[i][f] = K[i][held + f];
-    solve_held(block, column);
-    for (int i = 0; i < held; ++i) block.W[i][f] = column[i];
-  }
-  for (int f = 0; f < free; ++f) {
-    for (int g = f; g < free; ++g) {
-      Real s = K[held + f][held + g];
-      for (int i = 0; i < held; ++i) s -= K[i][held + f] * block.W[i][g];
-      // What the held rows leave unmoved (round-off apart) cannot be moved.
-      if (f == g && !(s > joint_tolerance::kUnmoved * K[held + f][held + f])) s = Real(0);
-      block.S[f][g] = block.S[g][f] = s;
-    }
-  }
+    return d > joint_tolerance::kUnmoved * size ? d : 0;
+  };
+  for (int i = 0; i < block.held; ++i) D[i] = eliminate(i, i);
+  for (int f = 0; f < block.rows - block.held; ++f)
+    block.free_inverse_mass[f] = static_cast<Real>(eliminate(block.held + f, block.held));
 }
 
 // k = m w^2, c = 2 z m w with the mass m = 1/S that the spring really sees.
@@ -106,7 +87,7 @@ void spring_from_frequency(Real frequency, Real damping_ratio, Real S, Real& sti
 void make_springs(JointBlock& block) {
   for (int f = 0; f < block.rows - block.held; ++f) {
     FreeRow& row = block.free[f];
-    const Real S = block.S[f][f];
+    const Real S = block.free_inverse_mass[f];
     if (row.hold_frequency > Real(0))
       spring_from_frequency(row.hold_frequency, row.hold_damping_ratio, S, row.stiffness,
                             row.damping);
@@ -124,8 +105,7 @@ void make_springs(JointBlock& block) {
 void prepare_joint(const WorldState& world, JointBlock& block) {
   Moved moved[kMaxJointBodies];
   for (int k = 0; k < block.bodies; ++k) {
-    const BodyDelta& delta = world.delta[block.body[k]];
-    moved[k] = {delta.dp, delta.dq};
+    moved[k] = moved_now(world, block, k);
     block.inverse_inertia[k] = world.substep[block.body[k]].I_inverse;
   }
   Real values[kMaxJointRows];
@@ -138,9 +118,8 @@ void prepare_joint(const WorldState& world, JointBlock& block) {
     block.pair[p].angle = coordinate_of(Coordinate::Twist, at, block.pair[p].angle);
   }
   make_jacobians(block, moved);
-  Real K[kMaxJointRows][kMaxJointRows];
-  make_response(block, K);
-  make_factors(block, K);
+  if (!block.needs_inverse_mass) return;
+  make_inverse_masses(block);
   make_springs(block);
 }
 

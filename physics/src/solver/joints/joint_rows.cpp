@@ -40,13 +40,11 @@ void set_limit(FreeRow& row, const JointLimit& limit) {
 
 FreeRow& RowBuilder::leave(Coordinate coordinate, const JointAxis& axis) {
   FreeRow& row = add_free(coordinate);
-  int parts = 0;
   if (axis.spring.has_value()) {
     row.spring = true;
     row.rest = axis.spring->rest;
     row.stiffness = axis.spring->stiffness;
     row.damping = axis.spring->damping;
-    ++parts;
   }
   if (axis.motor.has_value()) {
     row.max_effort = axis.motor->max_effort;
@@ -59,18 +57,14 @@ FreeRow& RowBuilder::leave(Coordinate coordinate, const JointAxis& axis) {
       row.servo_frequency = axis.motor->softness.frequency;
       row.servo_damping_ratio = axis.motor->softness.damping_ratio;
     }
-    ++parts;
   }
   if (axis.friction > Real(0)) {
     row.friction = axis.friction;
-    ++parts;
   }
   if (axis.limit.has_value()) {
     set_limit(row, *axis.limit);
-    parts += 2;
   }
   block_.row[block_.rows - 1].needs_value = row.spring || row.servo || row.limited;
-  if (parts > 1) block_.simple = false;
   return row;
 }
 

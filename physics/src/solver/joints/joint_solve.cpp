@@ -1,216 +1,15 @@
-// Warm start and passes over one joint (joint_solver.h has the equations).
+// Warm start and passes (joint_solver.h has the equations).
 #include <cmath>
 
-#include "solver/joints/joint_poses.h"
+#include "solver/joints/coordinates.h"
+#include "solver/joints/joint_laws.h"
+#include "solver/joints/joint_motion.h"
+#include "solver/joints/joint_scratch.h"
 #include "solver/joints/joint_solver.h"
 #include "solver/joints/joint_tolerances.h"
-#include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
-
-BlockVelocities read(const WorldState& world, const JointBlock& block) {
-  BlockVelocities u;
-  for (int k = 0; k < block.bodies; ++k) {
-    const BodyVelocity& velocity = world.bodies.velocity[block.body[k]];
-    u.v[k] = velocity.v;
-    u.w[k] = velocity.w;
-  }
-  return u;
-}
-// Bodies that are not dynamic may stand in many joints of a colour; they are never written.
-void write(WorldState& world, const JointBlock& block, const BlockVelocities& u) {
-  for (int k = 0; k < block.bodies; ++k) {
-    if (!block.moves[k]) continue;
-    BodyVelocity& velocity = world.bodies.velocity[block.body[k]];
-    velocity.v = u.v[k];
-    velocity.w = u.w[k];
-  }
-}
-Real rate(const JointBlock& block, int row, const BlockVelocities& u) {
-  Real sum = 0;
-  for (int k = 0; k < block.bodies; ++k) {
-    const BodyJacobian& J = block.J[row * block.bodies + k];
-    sum += dot(J.linear, u.v[k]) + dot(J.angular, u.w[k]);
-  }
-  return sum;
-}
-void apply(const JointBlock& block, const Real* impulse, BlockVelocities& u) {
-  for (int k = 0; k < block.bodies; ++k) {
-    if (!block.moves[k]) continue;
-    Vec linear{0, 0, 0}, angular{0, 0, 0};
-    for (int i = 0; i < block.rows; ++i) {
-      const BodyJacobian& J = block.J[i * block.bodies + k];
-      linear += impulse[i] * J.linear;
-      angular += impulse[i] * J.angular;
-    }
-    u.v[k] += multiply_each(block.inverse_mass[k], linear);
-    u.w[k] += block.inverse_inertia[k] * angular;
-  }
-}
-
-Real clamp(Real a, Real size) { return std::min(std::max(a, -size), size); }
-
-// The free rows of a joint while they are being solved, in the space in which the held ones hold.
-struct FreeSpace {
-  JointBlock& block;
-  JointPass pass;
-  Real T, h;              // [s] time for which the pass acts; substep
-  Real u[kMaxJointRows];  // rates now
-  Real u_begin[kMaxJointRows];
-  Real end_begin[kMaxJointRows];  // coordinates predicted with u_begin
-  Real l[kMaxJointRows] = {};     // impulses added
-
-  [[nodiscard]] int count() const { return block.rows - block.held; }
-  [[nodiscard]] JointRow& row(int f) const { return block.row[block.held + f]; }
-  Real& part(int f, RowPart p) const {
-    RowImpulses& impulses = row(f).impulses;
-    return block.split && pass == JointPass::Relax ? impulses.second[p] : impulses.first[p];
-  }
-  [[nodiscard]] Real end(int f) const { return end_begin[f] + h * (u[f] - u_begin[f]); }
-  void add(int f, Real impulse) {
-    l[f] += impulse;
-    for (int g = 0; g < count(); ++g) u[g] += block.S[g][f] * impulse;
-  }
-  // Brings part p to `wanted`.
-  void set(int f, RowPart p, Real wanted) {
-    Real& now = part(f, p);
-    const Real step = wanted - now;
-    now = wanted;
-    add(f, step);
-  }
-};
-
-// One step of a spring's equation l = -T (k x + c u), x the displacement half-way (or at the end).
-Real spring_step(const FreeSpace& s, int f, Real rest, Real k, Real c, Real impulse) {
-  const Real value = s.row(f).value, end = s.end(f);
-  const Real x = (s.block.split ? Real(0.5) * (value + end) : end) - rest;
-  const Real wanted = -s.T * (k * x + c * s.u[f]);
-  return (wanted - impulse) / (Real(1) + s.T * (k * s.T + c) * s.block.S[f][f]);
-}
-
-void solve_springs(FreeSpace& s, int f) {
-  const FreeRow& row = s.block.free[f];
-  if (row.spring) {
-    Real wanted = s.part(f, kSpring);
-    wanted += spring_step(s, f, row.rest, row.stiffness, row.damping, wanted);
-    s.set(f, kSpring, row.pulls_only ? std::min(wanted, Real(0)) : wanted);
-  }
-  if (row.servo && row.servo_frequency > Real(0)) {
-    Real wanted = s.part(f, kMotor);
-    wanted += spring_step(s, f, row.servo_target, row.servo_stiffness, row.servo_damping, wanted);
-    s.set(f, kMotor, clamp(wanted, s.T * row.max_effort));
-  }
-}
-
-void solve_motor(FreeSpace& s, int f) {
-  const FreeRow& row = s.block.free[f];
-  const Real inverse_S = Real(1) / s.block.S[f][f];
-  Real lack = 0;
-  if (row.motor) {
-    lack = s.u[f] - row.speed;
-  } else if (row.servo && !(row.servo_frequency > Real(0))) {
-    lack = s.pass == JointPass::Solve ? (s.end(f) - row.servo_target) / s.h : s.u[f];
-  } else {
-    return;
-  }
-  s.set(f, kMotor, clamp(s.part(f, kMotor) - inverse_S * lack, s.T * row.max_effort));
-}
-
-void solve_row_friction(FreeSpace& s, int f) {
-  const FreeRow& row = s.block.free[f];
-  if (!(row.friction > Real(0))) return;
-  s.set(f, kFriction, clamp(s.part(f, kFriction) - s.u[f] / s.block.S[f][f], s.T * row.friction));
-}
-
-// One side of a limit: sign +1 keeps the coordinate above, -1 below `bound`. Impulses are counted
-// positive away from the limit.
-void solve_limit_side(FreeSpace& s, int f, RowPart p, Real sign, Real bound) {
-  if (!std::isfinite(bound)) return;
-  const FreeRow& row = s.block.free[f];
-  const Real gap = sign * (s.row(f).value - bound);
-  const Real S = s.block.S[f][f];
-  Real& now = s.part(f, p);
-  if (row.limit_frequency > Real(0)) {
-    if (s.pass == JointPass::Relax) return;
-    const Real wanted =
-        sign * now + spring_step(s, f, bound, row.limit_stiffness, row.limit_damping, sign * now);
-    const Real kept = std::max(sign * wanted, Real(0));
-    const Real step = kept - now;
-    now = kept;
-    s.add(f, sign * step);
-    return;
-  }
-  Real lack, least = 0;
-  if (s.pass == JointPass::Solve) {
-    const Real push = is_linear(s.row(f).coordinate) ? s.block.push_linear : s.block.push_angular;
-    lack = sign * (s.end(f) - s.row(f).value) / s.h;
-    lack += gap < Real(0) ? std::max(gap / s.h, -push) : gap / s.h;
-  } else {
-    const Real before = s.row(f).impulses.first[p];
-    if (s.block.split) least = -before;  // what was pushed too much before is taken back
-    lack = sign * s.u[f] + std::max(gap, Real(0)) / s.h;
-    const Real approach = sign * s.row(f).approach;
-    if (row.restitution > Real(0) && s.row(f).may_bounce && before > Real(0) && approach < Real(0))
-      lack = sign * s.u[f] + row.restitution * approach;
-  }
-  const Real kept = std::max(now - lack / S, least);
-  const Real step = kept - now;
-  now = kept;
-  s.add(f, sign * step);
-}
-
-// A motor without bound must not work against a limit without end.
-void settle_unlimited_motor(FreeSpace& s, int f, RowPart p, Real sign) {
-  if (std::isfinite(s.block.free[f].max_effort)) return;
-  Real& limit = s.part(f, p);
-  Real& motor = s.part(f, kMotor);
-  const Real both = std::min(limit, -sign * motor);
-  if (!(both > Real(0))) return;
-  limit -= both;
-  motor += sign * both;
-}
-
-// Scales the impulses of three rows so that they form a vector no longer than `size`.
-void bound_group(FreeSpace& s, int first, RowPart p, Real size) {
-  Real square = 0;
-  for (int f = first; f < first + 3; ++f) square += s.part(f, p) * s.part(f, p);
-  if (!(square > size * size)) return;
-  const Real scale = size / std::sqrt(square);
-  for (int f = first; f < first + 3; ++f) s.set(f, p, scale * s.part(f, p));
-}
-
-void solve_free(FreeSpace& s) {
-  const JointBlock& block = s.block;
-  const int sweeps = s.count() == 1 && block.simple ? 1 : joint_tolerance::kFreeSweeps;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (int f = 0; f < s.count(); ++f) {
-      const FreeRow& row = block.free[f];
-      if (!(block.S[f][f] > Real(0))) continue;
-      // Springs have said in the solving pass what they do until the end of the substep.
-      if (s.pass == JointPass::Solve) solve_springs(s, f);
-      solve_motor(s, f);
-      solve_row_friction(s, f);
-      if (!row.limited) continue;
-      solve_limit_side(s, f, kLower, Real(1), row.lower);
-      settle_unlimited_motor(s, f, kLower, Real(1));
-      solve_limit_side(s, f, kUpper, Real(-1), row.upper);
-      settle_unlimited_motor(s, f, kUpper, Real(-1));
-    }
-    if (block.friction_group >= 0)
-      bound_group(s, block.friction_group, kFriction,
-                  s.T * block.free[block.friction_group].friction);
-    for (int g = 0; g < block.motor_groups; ++g)
-      if (std::isfinite(block.free[3 * g].max_effort))
-        bound_group(s, 3 * g, kMotor, s.T * block.free[3 * g].max_effort);
-  }
-}
-
-// Both sides of a limit push along the row with opposite signs.
-Real total(const RowImpulses& impulses, bool second) {
-  const Real* part = second ? impulses.second : impulses.first;
-  return part[kHold] + part[kSpring] + part[kMotor] + part[kFriction] + part[kLower] - part[kUpper];
-}
 
 // Whether a limit that is hit in this substep bounces, and how fast it is hit: the slower of the
 // speeds before and after the forces, so that no bounce gains energy.
@@ -224,19 +23,358 @@ void note_approach(JointRow& row, const FreeRow& free, Real now) {
                    std::abs(row.approach) > joint_tolerance::kBounceCut * std::abs(now - before);
 }
 
+// Parts of three rows that are bounded together, as a vector.
+struct VectorBound {
+  int first = 0;  // free row
+  RowPart part = kFriction;
+  Real size = 0;  // [N s] or [N m s]
+};
+
+// The passes over one piece.
+class PieceSolver {
+ public:
+  PieceSolver(WorldState& world, const JointPiece& piece, JointPass pass)
+      : world_(world), scratch_(*world.joints.scratch), piece_(piece), pass_(pass), h_(piece.h) {}
+
+  void run() {
+    const bool solving = pass_ == JointPass::Solve;
+    bool clamped = false;
+    int arrived = 0;  // steps since a law last hit its bound that saw where coordinates arrive
+    Real before = 0;
+    linear_ = true;
+    for (int step = 0; step < joint_tolerance::kMostNewtonSteps; ++step) {
+      const bool changed = choose_laws(!clamped) || step == 0;
+      if (arrived > 0 && !changed && !clamped) {
+        if (!solving || error_ <= joint_tolerance::kClosed) return;
+        // Newton's method has come too far from where it began: turns by more than a radian in a
+        // substep. The step before is taken back; what is left loses energy, but never gains it.
+        if (arrived > 1 && error_ > before) return take_back();
+        if (arrived > 1 && error_ > joint_tolerance::kSlowStep * before) return;
+      }
+      before = error_;
+      if (solving && !linear_) remember();
+      if (changed) factor_piece(scratch_.system, scratch_.blocks, piece_);
+      find_impulses();
+      clamped = give_impulses();
+      if (!has_laws_ && !solving) return;
+      // Where an impulse was cut off the held rows are yet to follow: such velocities say nothing
+      // about where coordinates arrive.
+      arrived = clamped || (solving && linear_) ? 0 : arrived + 1;
+      linear_ = clamped;
+    }
+    if (clamped) hold_only();
+  }
+
+ private:
+  struct Now {
+    Real rate[kMaxJointRows] = {}, end[kMaxJointRows] = {};
+  };
+
+  SystemRow* rows_of(std::uint32_t i) {
+    return &scratch_.system.rows[std::size_t{kMaxJointRows} * i];
+  }
+  [[nodiscard]] Real time(const JointBlock& block) const {
+    return block.split ? Real(0.5) * h_ : h_;
+  }
+  // [m] or [rad] by which errors of a row are measured.
+  [[nodiscard]] static Real size_of(const JointBlock& block, int row) {
+    return is_linear(block.row[row].coordinate) ? block.size : Real(1);
+  }
+  [[nodiscard]] bool second(const JointBlock& block) const {
+    return block.split && pass_ == JointPass::Relax;
+  }
+
+  // Rates, and the coordinates at the end of the substep at these rates.
+  [[nodiscard]] Now look(const JointBlock& block) const {
+    const BlockVelocities u = read_velocities(world_, block);
+    Now now;
+    for (int i = 0; i < block.rows; ++i) {
+      now.rate[i] = row_rate(block, i, u);
+      now.end[i] = block.row[i].value + h_ * now.rate[i];
+    }
+    if (linear_ || pass_ == JointPass::Relax) return now;
+    Moved moved[kMaxJointBodies];
+    for (int k = 0; k < block.bodies; ++k) {
+      if (block.body[k] == 0) continue;
+      const SubstepBody& s = world_.substep[block.body[k]];
+      moved[k] = drifted(moved_now(world_, block, k), u.v[k], u.w[k], s.I, s.I_inverse, h_);
+    }
+    coordinates_at(block, moved, now.end);
+    return now;
+  }
+  [[nodiscard]] RowMoment moment(const JointBlock& block, const Now& now, int f) const {
+    return {pass_, h_, now.rate[block.held + f], now.end[block.held + f]};
+  }
+
+  [[nodiscard]] int vector_bounds(const JointBlock& block, VectorBound bounds[3]) const {
+    int count = 0;
+    if (block.friction_group >= 0)
+      bounds[count++] = {block.friction_group, kFriction,
+                         time(block) * block.free[block.friction_group].friction};
+    for (int g = 0; g < block.motor_groups; ++g)
+      if (std::isfinite(block.free[3 * g].max_effort))
+        bounds[count++] = {3 * g, kMotor, time(block) * block.free[3 * g].max_effort};
+    return count;
+  }
+  // The law of part `part` of a free row.
+  [[nodiscard]] Law law_of(const JointBlock& block, const Now& now, int f, RowPart part) const {
+    Law laws[kMaxLaws];
+    const int count = laws_of(block, f, moment(block, now, f), laws);
+    for (int i = 0; i < count; ++i)
+      if (laws[i].part == part) return laws[i];
+    return {};
+  }
+  // Where three parts would go by themselves, and whether that lies within their bound.
+  bool vector_acts(const JointBlock& block, const Now& now, const VectorBound& bound,
+                   Real wanted[3]) const {
+    Real square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Law law = law_of(block, now, bound.first + k, bound.part);
+      const Real S = block.free_inverse_mass[bound.first + k];
+      wanted[k] = S + law.give > Real(0) ? law.impulse - law.lack / (S + law.give) : law.impulse;
+      square += wanted[k] * wanted[k];
+    }
+    return square < bound.size * bound.size;
+  }
+
+  // Which laws act, and by how much every row misses what it asks for. Returns whether other rows
+  // act than before. Unless any may enter, those that act are among those that did.
+  bool choose_laws(bool may_enter) {
+    bool changed = false;
+    has_laws_ = false;
+    error_ = Real(0);
+    for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
+      const JointBlock& block = scratch_.blocks[i];
+      const Now now = look(block);
+      SystemRow* rows = rows_of(i);
+      for (int k = 0; k < block.held; ++k) {
+        const JointRow& row = block.row[k];
+        rows[k].acts = true;
+        rows[k].give = 0;
+        Real lack = now.rate[k];
+        if (pass_ == JointPass::Solve) {
+          lack = (now.end[k] - row.value) / h_;
+        }
+        rows[k].value = -static_cast<double>(lack);
+        error_ = std::max(error_, std::abs(lack) * h_ / size_of(block, k));
+      }
+      VectorBound bounds[3];
+      bool acts[3];
+      Real wanted[3] = {};
+      const int bound_count = vector_bounds(block, bounds);
+      for (int b = 0; b < bound_count; ++b) acts[b] = vector_acts(block, now, bounds[b], wanted);
+      for (int f = 0; f < block.rows - block.held; ++f) {
+        Law laws[kMaxLaws];
+        const int count = laws_of(block, f, moment(block, now, f), laws);
+        has_laws_ = has_laws_ || count > 0;
+        SystemRow next;
+        double G = 0, sum = 0;
+        for (int k = 0; k < count; ++k) {
+          bool in = laws[k].acts();
+          for (int b = 0; b < bound_count; ++b)
+            if (laws[k].part == bounds[b].part && f >= bounds[b].first && f < bounds[b].first + 3)
+              in = acts[b];
+          // Rates while held rows do not hold say nothing about who wants in.
+          if (!may_enter)
+            in = laws[k].inside() && (rows[block.held + f].laws & 1u << laws[k].part) != 0;
+          if (!in) continue;
+          if (laws[k].soft) {
+            next.laws |= 1u << laws[k].part;
+            G += 1 / static_cast<double>(laws[k].give);
+            sum += static_cast<double>(laws[k].lack) / static_cast<double>(laws[k].give);
+          } else {  // the last one wins: limits over friction over motors
+            if (next.rigid >= 0) next.laws &= ~(1u << next.rigid);
+            next.rigid = static_cast<int>(laws[k].part);
+            next.laws |= 1u << laws[k].part;
+            next.value = -static_cast<double>(laws[k].lack);
+          }
+        }
+        next.acts = next.laws != 0;
+        if (next.rigid < 0 && G > 0) {
+          next.give = 1 / G;
+          next.value = -sum / G;
+        }
+        SystemRow& row = rows[block.held + f];
+        changed = changed || next.laws != row.laws;
+        next.size = row.size;
+        row = next;
+      }
+    }
+    return changed;
+  }
+
+  // The laws are left as they are; what is held holds.
+  void hold_only() {
+    linear_ = true;
+    choose_laws(false);
+    for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
+      const JointBlock& block = scratch_.blocks[i];
+      SystemRow* rows = rows_of(i);
+      for (int k = block.held; k < block.rows; ++k) rows[k] = {};
+    }
+    factor_piece(scratch_.system, scratch_.blocks, piece_);
+    find_impulses();
+    has_laws_ = false;
+    give_impulses();
+  }
+
+  void find_impulses() {
+    JointSystem& system = scratch_.system;
+    if (pass_ == JointPass::Solve && piece_.loops) {
+      // The compliance is felt by the whole impulse, so that loops cannot build up any against
+      // themselves.
+      for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
+        const JointBlock& block = scratch_.blocks[i];
+        SystemRow* rows = rows_of(i);
+        for (int k = 0; k < block.held; ++k)
+          rows[k].value -= joint_tolerance::kLoopCompliance * rows[k].size *
+                           static_cast<double>(block.row[k].impulses.first[kHold]);
+      }
+    }
+    solve_factored(system, scratch_.blocks, piece_);
+  }
+
+  // Applies the impulses and shares them out among the laws. Returns whether some bound was hit.
+  bool give_impulses() {
+    for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
+      JointBlock& block = scratch_.blocks[i];
+      const SystemRow* rows = rows_of(i);
+      Real l[kMaxJointRows];
+      for (int k = 0; k < block.rows; ++k) l[k] = static_cast<Real>(rows[k].value);
+      for (int k = 0; k < block.held; ++k) {
+        RowImpulses& impulses = block.row[k].impulses;
+        (second(block) ? impulses.second : impulses.first)[kHold] += l[k];
+      }
+      change(block, l);
+    }
+    if (!has_laws_) return false;
+    bool clamped = false;
+    for (std::uint32_t i = piece_.begin; i < piece_.end; ++i)
+      clamped = share_out(scratch_.blocks[i], rows_of(i)) || clamped;
+    return clamped;
+  }
+  void remember() {
+    for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
+      JointBlock& block = scratch_.blocks[i];
+      for (int k = 0; k < block.rows; ++k) block.row[k].kept = block.row[k].impulses;
+    }
+  }
+  void take_back() {
+    for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
+      JointBlock& block = scratch_.blocks[i];
+      Real l[kMaxJointRows];
+      for (int k = 0; k < block.rows; ++k) {
+        JointRow& row = block.row[k];
+        l[k] = total_impulse(row.kept, false) - total_impulse(row.impulses, false);
+        row.impulses = row.kept;
+      }
+      change(block, l);
+    }
+  }
+  void change(const JointBlock& block, const Real* l) {
+    BlockVelocities u = read_velocities(world_, block);
+    apply_impulses(block, l, u);
+    write_velocities(world_, block, u);
+  }
+
+  bool share_out(JointBlock& block, const SystemRow* rows) {
+    const Now now = look(block);
+    Real missing[kMaxJointRows] = {};
+    bool clamped = false;
+    for (int f = 0; f < block.rows - block.held; ++f) {
+      const SystemRow& row = rows[block.held + f];
+      Law laws[kMaxLaws];
+      const int count = laws_of(block, f, moment(block, now, f), laws);
+      const Real given = static_cast<Real>(row.value);
+      Real shared = 0;
+      const auto give = [&](const Law& law, Real impulse) {
+        const Real kept = std::min(std::max(impulse, law.lower), law.upper);
+        set_impulse(block, f, pass_, law.part, kept);
+        shared += kept - law.impulse;
+        return kept != impulse;
+      };
+      for (int k = 0; k < count; ++k) {
+        const Law& law = laws[k];
+        if (law.soft && (row.laws & 1u << law.part) != 0)
+          clamped = give(law, law.impulse - law.lack / law.give) || clamped;
+        // A motor that works against a limit or against friction gives all it has.
+        if (!law.soft && row.rigid >= 0 && law.part != row.rigid && law.acts()) {
+          const Real end = law.lack > Real(0) ? law.lower : law.upper;
+          if (std::abs(law.lack) > kNoLack && std::isfinite(end)) give(law, end);
+        }
+      }
+      for (int k = 0; k < count; ++k)
+        if (laws[k].part == row.rigid)
+          clamped = give(laws[k], laws[k].impulse + given - shared) || clamped;
+      missing[block.held + f] = shared - given;
+    }
+    clamped = bound_vectors(block, now, rows, missing) || clamped;
+    for (int f = 0; f < block.rows - block.held; ++f) settle_unlimited_motor(block, f, pass_);
+    bool any = false;
+    for (int k = block.held; k < block.rows; ++k) any = any || missing[k] != Real(0);
+    if (any) change(block, missing);
+    return clamped;
+  }
+
+  // Three rows beyond their common bound slide: a projected step, whose fixed point opposes the
+  // motion exactly.
+  bool bound_vectors(JointBlock& block, const Now& now, const SystemRow* rows, Real* missing) {
+    VectorBound bounds[3];
+    bool clamped = false;
+    const int count = vector_bounds(block, bounds);
+    for (int b = 0; b < count; ++b) {
+      Real wanted[3] = {}, square = 0;
+      const bool acted = (rows[block.held + bounds[b].first].laws & 1u << bounds[b].part) != 0;
+      if (acted) {
+        for (int k = 0; k < 3; ++k)
+          wanted[k] = law_of(block, now, bounds[b].first + k, bounds[b].part).impulse;
+      } else {
+        vector_acts(block, now, bounds[b], wanted);
+      }
+      for (int k = 0; k < 3; ++k) square += wanted[k] * wanted[k];
+      if (acted && !(square > bounds[b].size * bounds[b].size)) continue;
+      const Real scale =
+          square > bounds[b].size * bounds[b].size ? bounds[b].size / std::sqrt(square) : Real(1);
+      for (int k = 0; k < 3; ++k) {
+        const int f = bounds[b].first + k;
+        const Real before = law_of(block, now, f, bounds[b].part).impulse;
+        const Real step = scale * wanted[k] - before;
+        set_impulse(block, f, pass_, bounds[b].part, scale * wanted[k]);
+        missing[block.held + f] += step;
+        clamped = clamped || std::abs(step) > kSameImpulse * bounds[b].size;
+      }
+    }
+    return clamped;
+  }
+
+  // Speeds [m/s, rad/s] below which nothing is asked for, and impulses that are as good as equal,
+  // relative to their bound [-].
+  static constexpr Real kNoLack = Real(100) * std::numeric_limits<Real>::epsilon();
+  static constexpr Real kSameImpulse = Real(1e-3);
+
+  WorldState& world_;
+  JointScratch& scratch_;
+  const JointPiece& piece_;
+  JointPass pass_;
+  Real h_;
+  bool linear_ = true;
+  bool has_laws_ = false;
+  Real error_ = 0;  // largest [-] by which a held coordinate will be off, in sizes or radians
+};
+
 }  // namespace
 
 void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass) {
   const bool second = pass == JointPass::Relax;
   if (second && !block.split) return;  // one impulse for both passes: it is there already
-  BlockVelocities u = read(world, block);
+  BlockVelocities u = read_velocities(world, block);
   Real impulse[kMaxJointRows] = {};
   for (int i = 0; i < block.rows; ++i) {
     RowImpulses& impulses = block.row[i].impulses;
     if (i >= block.held) {
       const FreeRow& row = block.free[i - block.held];
       if (!second) {
-        note_approach(block.row[i], row, rate(block, i, u));
+        note_approach(block.row[i], row, row_rate(block, i, u));
       } else {
         // The second half of what springs do is the same as the first.
         impulses.second[kSpring] = impulses.first[kSpring];
@@ -251,105 +389,32 @@ void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass) {
         }
       }
     }
-    impulse[i] = total(impulses, second);
+    impulse[i] = total_impulse(impulses, second);
   }
-  apply(block, impulse, u);
-  write(world, block, u);
+  apply_impulses(block, impulse, u);
+  write_velocities(world, block, u);
 }
 
-namespace {
-
-// Coordinates at the end of the substep. How arms turn on the way is seen with velocities that the
-// joint allows: those between passes may be far off, above all the spin of a light body that was
-// warm started with last substep's directions.
-void predict(const WorldState& world, const JointBlock& block, const BlockVelocities& u,
-             const Real* now, Real* end) {
-  Real l[kMaxJointRows] = {};
-  for (int i = 0; i < block.held; ++i) l[i] = -now[i];
-  solve_held(block, l);
-  BlockVelocities allowed = u;
-  apply(block, l, allowed);
-  Moved moved[kMaxJointBodies];
-  for (int k = 0; k < block.bodies; ++k) {
-    if (block.body[k] == 0) continue;
-    const BodyDelta& delta = world.delta[block.body[k]];
-    const SubstepBody& s = world.substep[block.body[k]];
-    moved[k] = drifted({delta.dp, delta.dq}, allowed.v[k], allowed.w[k], s.I, s.I_inverse, world.h);
-  }
-  coordinates_at(block, moved, end);
-  // Back to the velocities as they are, to first order.
-  for (int i = 0; i < block.rows; ++i) {
-    Real taken = 0;
-    if (i < block.held) {
-      taken = now[i];
-    } else {
-      for (int k = 0; k < block.held; ++k) taken -= block.KW[k][i - block.held] * l[k];
-    }
-    end[i] += world.h * taken;
-  }
-}
-
-}  // namespace
-
-void solve_joint(WorldState& world, JointBlock& block, JointPass pass) {
-  BlockVelocities u = read(world, block);
-  const bool solving = pass == JointPass::Solve;
-  const Real h = world.h, inverse_h = Real(1) / h;
-  Real now[kMaxJointRows] = {}, end[kMaxJointRows] = {};
-  for (int i = 0; i < block.rows; ++i) now[i] = rate(block, i, u);
-  Real x[kMaxJointRows] = {}, l[kMaxJointRows] = {};
-  for (int i = 0; i < block.held; ++i) x[i] = now[i];
-  if (solving) {
-    predict(world, block, u, now, end);
-    for (int i = 0; i < block.held; ++i) {
-      const JointRow& row = block.row[i];
-      const Real push = is_linear(row.coordinate) ? block.push_linear : block.push_angular;
-      x[i] = inverse_h * (end[i] - row.value) +
-             clamp(block.correction * inverse_h * (row.value - row.target), push);
-    }
-  }
-  solve_held(block, x);
-  if (solving)
-    for (int i = 0; i < block.held; ++i)
-      x[i] += joint_tolerance::kHoldLeak * (block.row[i].impulses.first[kHold] - x[i]);
-
-  FreeSpace s{block, pass, block.split ? Real(0.5) * h : h, h, {}, {}, {}, {}};
-  for (int f = 0; f < s.count(); ++f) {
-    const int i = block.held + f;
-    Real answer = 0;  // what the held rows are about to change
-    for (int k = 0; k < block.held; ++k) answer += block.KW[k][f] * x[k];
-    s.u[f] = s.u_begin[f] = now[i] - answer;
-    s.end_begin[f] = end[i] - h * answer;
-  }
-  solve_free(s);
-
-  for (int f = 0; f < s.count(); ++f) l[block.held + f] = s.l[f];
-  for (int i = 0; i < block.held; ++i) {
-    l[i] = -x[i];
-    for (int f = 0; f < s.count(); ++f) l[i] -= block.W[i][f] * s.l[f];
-    RowImpulses& impulses = block.row[i].impulses;
-    (solving || !block.split ? impulses.first : impulses.second)[kHold] += l[i];
-  }
-  apply(block, l, u);
-  write(world, block, u);
+void solve_joints_of(WorldState& world, const JointPiece& piece, JointPass pass) {
+  PieceSolver(world, piece, pass).run();
 }
 
 void note_rates(JointBlock& block, const WorldState& world) {
-  const BlockVelocities u = read(world, block);
-  for (int i = block.held; i < block.rows; ++i) block.row[i].rate = rate(block, i, u);
+  const BlockVelocities u = read_velocities(world, block);
+  for (int i = block.held; i < block.rows; ++i) block.row[i].rate = row_rate(block, i, u);
 }
 
 void sum_joint(JointBlock& block, const WorldState& world, JointPass pass) {
   if (!block.split && pass == JointPass::Solve) return;  // the relaxing pass changes it yet
   const bool second = block.split && pass == JointPass::Relax;
   const int b = block.place[1];
-  const Vec arm = rotate(world.delta[block.body[b]].dq, block.pair[0].arm_b);
+  const Vec arm = rotate(moved_now(world, block, b).dq, block.pair[0].arm_b);
   for (int i = 0; i < block.rows; ++i) {
     JointRow& row = block.row[i];
     const Real* part = second ? row.impulses.second : row.impulses.first;
     for (int p = 0; p < kRowParts; ++p) row.sum[p] += part[p];
     const BodyJacobian& J = block.J[i * block.bodies + b];
-    const Real l = total(row.impulses, second);
+    const Real l = total_impulse(row.impulses, second);
     block.force_sum += l * J.linear;
     block.torque_sum += l * (J.angular - cross(arm, J.linear));
   }

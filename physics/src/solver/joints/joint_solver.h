@@ -1,25 +1,26 @@
-// What a pass does with one joint: prepare at a pose, warm start, solve, relax.
+// What a pass does with the joints: prepare at a pose, warm start, solve, relax.
 //
-// The equations of the held rows, with the coordinate C predicted at the end of the substep from
-// the velocities that are being solved for (turned arms and gyroscopic terms included):
-//   solve   (C_end - C)/h + clamp(b C/h) + e K l = 0   l: the whole impulse; e: the small leak;
-//           b = 1, or 0.2 where joints share a body (kSharedCorrection)
-//   relax   J V = 0 where the drift has ended
-// so that the position error is removed to second order in every substep: this is RATTLE
-// [Andersen 1983] with one Newton step a pass, and what is left over is removed in the next one.
+// All joints of a connected group are solved together (joint_system.h), held rows and whatever acts
+// along the free ones:
+//   held    solve  (C_end - C)/h + e K l = 0    C_end: the coordinate at the end of the substep,
+//   from
+//                  the velocities that are being solved for (turned arms and gyroscopic terms
+//                  included); l: the whole impulse; e: a small compliance
+//           close  what is left of C where the drift has ended, in positions (joint_close.cpp)
+//           relax  J V = 0 there
+//   free    the laws of joint_laws.h
+// This is RATTLE [Andersen 1983], of second order, and nothing that corrects positions gains
+// energy. Newton's method: the first step of a pass takes C_end to first order, the second where
+// the drift would end. A step that leaves more of the error than it found is taken back: bodies
+// that turn by more than a radian in a substep are out of its reach. Which laws act (a limit that
+// is touched, a motor below its largest effort) is guessed from the last substep's impulses; a law
+// that hits its bound leaves the system, one that wants back enters it, and the system is solved
+// again: a primal-dual active set, a semismooth Newton method [Hintermueller, Ito, Kunisch 2002].
 //
-// Free rows are solved one after the other in the space in which the held ones hold (S, see
-// joint_block.h), a few sweeps, each part clamped:
-//   spring      l = -T (k ((C + C_end)/2 - rest) + c u): the implicit midpoint rule, which keeps a
-//               spring's energy at any step and is second order (k at C_end where impulses are not
-//               split: implicit Euler)
-//   motor       u = speed, |l| <= T max; servo: a spring whose k = w^2 / S, c = 2 z w / S, clamped
-//   friction    u = 0, |l| <= T friction [Coulomb, constant]
-//   limit       C_end >= lower, l >= 0; likewise upper; soft ones are one-sided springs
-// T is the time for which the pass acts: h/2 where the impulses are split, else h.
+// Groups too wide to factor are solved joint by joint, kChainPasses times (b = kSharedCorrection).
 #pragma once
 
-#include "solver/joints/joint_block.h"
+#include "solver/joints/joint_system.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -29,7 +30,9 @@ enum class JointPass : std::uint8_t { Solve, Relax };
 
 void prepare_joint(const WorldState& world, JointBlock& block);
 void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass);
-void solve_joint(WorldState& world, JointBlock& block, JointPass pass);
+void solve_joints_of(WorldState& world, const JointPiece& piece, JointPass pass);
+// Where the drift has ended: takes away the errors of held rows, in positions alone.
+void close_joints_of(WorldState& world, const JointPiece& piece);
 // Adds the impulses just found to what is reported for the step.
 void sum_joint(JointBlock& block, const WorldState& world, JointPass pass);
 

@@ -2,7 +2,8 @@
 #include "solver/joints/joint_stages.h"
 
 #include "math/eigen_bridge.h"
-#include "solver/joints/joint_block.h"
+#include "solver/joints/joint_flight.h"
+#include "solver/joints/joint_scratch.h"
 #include "solver/joints/joint_solver.h"
 #include "solver/joints/joint_tolerances.h"
 #include "world/world_state.h"
@@ -10,53 +11,60 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
+// Pieces of one colour share no dynamic body; the joints of a piece come one after the other.
+// Groups that fly by themselves take no part.
 template <class Task>
-void for_joints(WorldState& world, Task&& task) {
-  JointScratch& joints = *world.joints.scratch;
-  parallel_for(world, static_cast<std::uint32_t>(joints.blocks.size()),
-               joint_tolerance::kJointGrain, [&](std::uint32_t begin, std::uint32_t end) {
-                 for (std::uint32_t i = begin; i < end; ++i) task(joints.blocks[i]);
-               });
-}
-template <class Task>
-void for_joints_by_color(WorldState& world, Task&& task) {
+void for_pieces(WorldState& world, Task&& task) {
   JointScratch& joints = *world.joints.scratch;
   for (const auto& [first, last] : joints.colors) {
     const std::uint32_t offset = first;
-    parallel_for(world, last - first, joint_tolerance::kJointGrain,
+    parallel_for(world, last - first, joint_tolerance::kPieceGrain,
                  [&](std::uint32_t begin, std::uint32_t end) {
-                   for (std::uint32_t i = begin; i < end; ++i) task(joints.blocks[offset + i]);
+                   for (std::uint32_t i = begin; i < end; ++i)
+                     if (!joints.system.pieces[offset + i].split)
+                       task(joints.system.pieces[offset + i]);
                  });
   }
 }
-
-// A single colour is a set of joints apart: what one does, no other sees.
-int passes_over(const WorldState& world) {
-  return world.joints.scratch->colors.size() > 1 ? joint_tolerance::kChainPasses : 1;
+template <class Task>
+void for_blocks(WorldState& world, Task&& task) {
+  std::vector<JointBlock>& blocks = world.joints.scratch->blocks;
+  for_pieces(world, [&](const JointPiece& piece) {
+    for (std::uint32_t i = piece.begin; i < piece.end; ++i) task(blocks[i]);
+  });
 }
 
 void pass_over(WorldState& world, JointPass pass) {
-  const int passes = passes_over(world);
+  const int passes = world.joints.scratch->has_parts ? joint_tolerance::kChainPasses : 1;
   for (int i = 0; i < passes; ++i)
-    for_joints_by_color(world, [&](JointBlock& block) { solve_joint(world, block, pass); });
-  for_joints(world, [&](JointBlock& block) { sum_joint(block, world, pass); });
+    for_pieces(world, [&](const JointPiece& piece) {
+      if (i == 0 || !piece.whole) solve_joints_of(world, piece, pass);
+    });
+  for_blocks(world, [&](JointBlock& block) { sum_joint(block, world, pass); });
 }
 
 }  // namespace
 
+void fly_joint_groups(WorldState& world) {
+  std::vector<JointPiece>& pieces = world.joints.scratch->system.pieces;
+  parallel_for(world, static_cast<std::uint32_t>(pieces.size()), joint_tolerance::kPieceGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 for (std::uint32_t i = begin; i < end; ++i)
+                   if (pieces[i].split) fly_joint_group(world, pieces[i]);
+               });
+}
+
 void warm_start_joints(WorldState& world) {
-  for_joints_by_color(world,
-                      [&](JointBlock& block) { warm_start_joint(world, block, JointPass::Solve); });
+  for_blocks(world, [&](JointBlock& block) { warm_start_joint(world, block, JointPass::Solve); });
 }
 
 void solve_joints(WorldState& world) { pass_over(world, JointPass::Solve); }
 
 void relax_joints(WorldState& world) {
-  for_joints(world, [&](JointBlock& block) { prepare_joint(world, block); });
-  for_joints_by_color(world,
-                      [&](JointBlock& block) { warm_start_joint(world, block, JointPass::Relax); });
+  for_blocks(world, [&](JointBlock& block) { prepare_joint(world, block); });
+  for_pieces(world, [&](const JointPiece& piece) { close_joints_of(world, piece); });
   pass_over(world, JointPass::Relax);
-  for_joints(world, [&](JointBlock& block) { note_rates(block, world); });
+  for_blocks(world, [&](JointBlock& block) { note_rates(block, world); });
 }
 
 void store_joints(WorldState& world) {

@@ -7,7 +7,9 @@ struct WorldState;
 
 // Colours the joints that are awake, marks their bodies as held, and fills the blocks.
 void build_joints(WorldState& world);
-// Impulses of the last substep, then the passes before the drift.
+// Groups that touch nothing: the whole substep of their bodies.
+void fly_joint_groups(WorldState& world);
+// The others: impulses of the last substep, then the passes before the drift.
 void warm_start_joints(WorldState& world);
 void solve_joints(WorldState& world);
 // Where the drift has ended: the passes on velocities alone.

@@ -1,41 +1,58 @@
 // Numbers of the joint solver that a user should not have to choose.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "plumb/precision.h"
 
 namespace plumb::inline PLUMB_ABI::detail::joint_tolerance {
 
-// Leak of held rows: this part of the velocity that its impulse makes is not asked for [-]. It
-// bounds the impulses of loops that contradict themselves. A joint that bears its own weight
-// stretches by g h^2 kHoldLeak: 0.17 um at 240 Hz.
-inline constexpr Real kHoldLeak = Real(1e-3);
+// Compliance of held rows, relative to what they can move [-]. Where a group has no loop it only
+// keeps the arithmetic regular. Joints of a loop may hold what others hold already, and contradict
+// them: their compliance bounds the impulses at which they do. It stretches a joint of a loop that
+// bears its own weight by g h^2 kLoopCompliance.
+inline constexpr double kCompliance = 1e-11;
+inline constexpr double kLoopCompliance = 1e-5;
 
-// Added to the diagonal of the held rows' matrix, relative to it [-]: keeps it regular whatever
-// axes of the bodies are locked. A hundred roundings of the number type.
+// A row of which the rows before it leave this part of what it can move is held by them [-]: what
+// is left is round-off.
+inline constexpr double kUnmoved = 1e-9;
+
+// A group whose inertia is this close to that of a rod cannot be turned back [-].
 inline constexpr Real kRegular = Real(100) * std::numeric_limits<Real>::epsilon();
 
-// A free coordinate whose inverse mass is this small a part of what it is without the held rows is
-// held by them [-]: what is left is round-off.
-inline constexpr Real kUnmoved = Real(10) * kRegular;
+// Newton's steps in one pass over a piece [-]: two at least before the drift; more only while
+// motors, limits and frictions reach their bounds or leave them.
+inline constexpr int kMostNewtonSteps = 8;
 
 // Errors are worked off no faster than this many body sizes a second [1/s], and turned back no
 // faster than this [rad/s], so that joints made far apart close without a bang.
 inline constexpr Real kPushSizesPerSecond = Real(8);
 inline constexpr Real kPushTurn = Real(8);
 
-// Part of the position error that a substep takes away where joints share a body [-]: passes leave
-// something over there, and what is pushed to and fro at full rate gains energy. A joint apart
-// takes away all of it.
+// Part of the position error that a substep takes away in groups that are too wide to be solved at
+// once [-]. All others take away all of it.
 inline constexpr Real kSharedCorrection = Real(0.2);
 
-// Sweeps over the free rows of one joint where more than one part acts [-].
-inline constexpr int kFreeSweeps = 6;
+// Newton's steps end when every held coordinate will be right to this [-], in body sizes or
+// radians; when a step leaves more than kSlowStep of the error it is the last.
+inline constexpr Real kClosed = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-9);
+inline constexpr Real kSlowStep = Real(0.5);
 
-// Passes over all joints, in each half of a substep [-]: one suffices for joints apart, chains gain
-// from more. They are alone, before the contacts have their say.
+// A group is factored as a whole as long as the squared lengths of its columns add up to no more
+// than this many a joint [-]: chains, trees and ragdolls have 1 to 10, a net of n by n joints n^2.
+inline constexpr std::uint64_t kMostWork = 64;
+
+// Passes over the joints of a group that is too wide, in each half of a substep [-].
 inline constexpr int kChainPasses = 16;
+
+// What turns or swings in a group that touches nothing may do so by this much in one of its
+// substeps [rad]: bodies about their joints, and the fastest vibration of what is stretched. The
+// group takes up to kMostCycles substeps of its own for one of the world's.
+inline constexpr Real kTurnPerCycle = Real(0.25);
+inline constexpr Real kVibrationPerCycle = Real(0.7);
+inline constexpr int kMostCycles = 8;
 
 // A limit with restitution does not bounce below this many times the speed that forces add in a
 // substep [-].
@@ -44,7 +61,8 @@ inline constexpr Real kBounceCut = Real(4);
 // Cones narrower than this [rad] hold their axis outright: the direction of what is left is noise.
 inline constexpr Real kNarrowCone = Real(1e-3);
 
-// Joints per chunk of a parallel loop [-].
+// Joints, and pieces, per chunk of a parallel loop [-].
 inline constexpr unsigned kJointGrain = 16;
+inline constexpr unsigned kPieceGrain = 4;
 
 }  // namespace plumb::inline PLUMB_ABI::detail::joint_tolerance

@@ -1,0 +1,130 @@
+// What has come apart is closed in positions alone: velocities, and with them energy, have no part
+// in it [Cline, Pai 2003]. Only where an error is larger than kClosed: the solving pass has aimed
+// at none.
+#include "math/symmetric_inverse.h"
+#include "solver/body_substep.h"
+#include "solver/joints/coordinates.h"
+#include "solver/joints/joint_scratch.h"
+#include "solver/joints/joint_solver.h"
+#include "solver/joints/joint_tolerances.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+// [m] or [rad] by which an error of row k is measured, and what may be closed in one substep.
+Real size_of(const JointBlock& block, int k) {
+  return is_linear(block.row[k].coordinate) ? block.size : Real(1);
+}
+Real most_of(const JointBlock& block, int k, Real h) {
+  return h * (is_linear(block.row[k].coordinate) ? joint_tolerance::kPushSizesPerSecond * block.size
+                                                 : joint_tolerance::kPushTurn);
+}
+
+// dx = M^-1 J^T l, for positions and attitudes.
+void displace(WorldState& world, const JointBlock& block, const SystemRow* rows) {
+  for (int k = 0; k < block.bodies; ++k) {
+    if (!block.moves[k]) continue;
+    Vec linear{0, 0, 0}, angular{0, 0, 0};
+    for (int i = 0; i < block.held; ++i) {
+      const BodyJacobian& J = block.J[i * block.bodies + k];
+      const Real l = static_cast<Real>(rows[i].value);
+      linear += l * J.linear;
+      angular += l * J.angular;
+    }
+    BodyDelta& delta = world.delta[block.body[k]];
+    delta.dp += multiply_each(block.inverse_mass[k], linear);
+    delta.dq = normalized(from_rotation_vector(block.inverse_inertia[k] * angular) * delta.dq);
+  }
+}
+
+// The body's own angular momentum stays; what follows from it and the attitude does not.
+void refresh(WorldState& world, std::uint32_t i) {
+  SubstepBody& s = world.substep[i];
+  world.bodies.velocity[i].w = angular_velocity_of(world.bodies.mass[i], orientation_now(world, i),
+                                                   world.bodies.momentum[i].L);
+  s.w_in = world.bodies.velocity[i].w;
+  if (s.split) turn_inertia(world, i);
+}
+
+// [kg m^2/s] of the bodies' paths, about where the first of them was.
+struct Orbit {
+  Vec L{0, 0, 0};
+  Vec moment{0, 0, 0};  // [kg m]
+  Real mass = 0;
+};
+Vec place(const WorldState& world, std::uint32_t i, std::uint32_t origin) {
+  return cast<Real>(world.bodies.pose[i].x - world.bodies.pose[origin].x) + world.delta[i].dp;
+}
+Orbit orbit_of(const WorldState& world, const JointPiece& piece, std::uint32_t origin) {
+  Orbit orbit;
+  for_bodies(*world.joints.scratch, piece, [&](std::uint32_t i) {
+    const Real m = world.bodies.mass[i].mass;
+    const Vec r = place(world, i, origin);
+    orbit.L += m * cross(r, world.bodies.velocity[i].v);
+    orbit.moment += m * r;
+    orbit.mass += m;
+  });
+  return orbit;
+}
+
+// Bodies that were shifted while they fly keep their linear momentum, but not the angular momentum
+// of their paths. What a free group has gained it gives back turning as a whole, which no joint
+// resists.
+void keep_angular_momentum(WorldState& world, const JointPiece& piece, std::uint32_t origin,
+                           const Orbit& before) {
+  const Orbit after = orbit_of(world, piece, origin);
+  const Vec center = (Real(1) / after.mass) * after.moment;
+  Symmetric3<Real> I{}, I_inverse{};
+  for_bodies(*world.joints.scratch, piece, [&](std::uint32_t i) {
+    const Vec r = place(world, i, origin) - center;
+    const Real m = world.bodies.mass[i].mass, r2 = length_squared(r);
+    const Symmetric3<Real>& own = world.substep[i].I;
+    I.xx += own.xx + m * (r2 - r.x * r.x);
+    I.yy += own.yy + m * (r2 - r.y * r.y);
+    I.zz += own.zz + m * (r2 - r.z * r.z);
+    I.xy += own.xy - m * r.x * r.y;
+    I.xz += own.xz - m * r.x * r.z;
+    I.yz += own.yz - m * r.y * r.z;
+  });
+  if (!invert(I, joint_tolerance::kRegular, I_inverse)) return;
+  const Vec turn = I_inverse * (before.L - after.L);
+  for_bodies(*world.joints.scratch, piece, [&](std::uint32_t i) {
+    BodyVelocity& velocity = world.bodies.velocity[i];
+    velocity.v += cross(turn, place(world, i, origin) - center);
+    velocity.w += turn;  // to angular momentum with all that the rows will do (collect_momentum)
+  });
+}
+
+}  // namespace
+
+void close_joints_of(WorldState& world, const JointPiece& piece) {
+  JointScratch& scratch = *world.joints.scratch;
+  bool open = false;
+  for (std::uint32_t i = piece.begin; i < piece.end; ++i) {
+    const JointBlock& block = scratch.blocks[i];
+    SystemRow* rows = &scratch.system.rows[std::size_t{kMaxJointRows} * i];
+    for (int k = 0; k < block.rows; ++k) {
+      rows[k] = {};
+      if (k >= block.held) continue;
+      const Real error = block.row[k].value - block.row[k].target;
+      open = open || std::abs(error) > joint_tolerance::kClosed * size_of(block, k);
+      const Real most = most_of(block, k, piece.h);
+      rows[k].acts = true;
+      rows[k].value =
+          -static_cast<double>(std::min(std::max(block.correction * error, -most), most));
+    }
+  }
+  if (!open) return;
+  factor_piece(scratch.system, scratch.blocks, piece);
+  solve_factored(scratch.system, scratch.blocks, piece);
+  const std::uint32_t origin = scratch.members[scratch.order[piece.begin]].body[0];
+  Orbit before;
+  if (!piece.anchored) before = orbit_of(world, piece, origin);
+  for (std::uint32_t i = piece.begin; i < piece.end; ++i)
+    displace(world, scratch.blocks[i], &scratch.system.rows[std::size_t{kMaxJointRows} * i]);
+  for_bodies(scratch, piece, [&](std::uint32_t i) { refresh(world, i); });
+  if (!piece.anchored) keep_angular_momentum(world, piece, origin, before);
+  for (std::uint32_t i = piece.begin; i < piece.end; ++i) prepare_joint(world, scratch.blocks[i]);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail
