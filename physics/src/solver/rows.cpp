@@ -4,6 +4,7 @@
 #include "collision/rolling.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
+#include "solver/turning_kernel.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -160,6 +161,31 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                         inverse_rotate(collider.in_body.q, normal));
 }
 
+// How fast the collider's surface runs over its body at a place [m] from the body's centre of mass;
+// `spin` [rad/s] is how it turns there. World axes.
+Vec surface_velocity_at(const WorldState& world, std::uint32_t slot, Vec arm, Vec& spin) {
+  const ColliderInfo& collider = world.colliders.info[slot];
+  const SurfaceVelocity& surface = collider.component.surface_velocity;
+  const Rotation& q_body = world.bodies.pose[world.bodies.info[collider.body].dense].q;
+  const Rotation q = q_body * collider.in_body.q;
+  spin = rotate(q, to_inner(surface.angular));
+  return rotate(q, to_inner(surface.linear)) +
+         cross(spin, arm - rotate(q_body, collider.in_body.p));
+}
+
+// In the coordinates of friction, (x, y, z) of contact_row.h. The place is that of the middle of
+// the step, so that what a turntable carries stays on its circle.
+Vec drive_of(const WorldState& world, const Pair& pair, const ContactRow<Real>& row) {
+  const BodyStore& bodies = world.bodies;
+  const Vec v = bodies.velocity[bodies.info[pair.body_b].dense].v -
+                bodies.velocity[bodies.info[pair.body_a].dense].v;
+  const Vec ahead = (Real(0.5) * world.dt) * (v - dot(row.n, v) * row.n);
+  Vec spin_a, spin_b;
+  const Vec a = surface_velocity_at(world, pair.collider_a(), row.arm_a + ahead, spin_a);
+  const Vec b = surface_velocity_at(world, pair.collider_b(), row.arm_b - ahead, spin_b);
+  return {dot(row.t1, b - a), dot(row.t2, b - a), dot(row.n, spin_b - spin_a)};
+}
+
 void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t contact_index) {
   const WorldState& world = context.world;
   const BodyStore& bodies = world.bodies;
@@ -216,6 +242,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   make_points(row, contact, center, warm);
   make_block(row);
 
+  if (pair.driven) row.drive = drive_of(world, pair, row);
   row.friction = pair.friction;
   row.restitution = pair.restitution;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
@@ -257,6 +284,18 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.loaded = loaded_points(world, row);
 }
 
+// Gives the rows of pairs that resist turning their own; one test a step where nothing does.
+void build_turning_rows(WorldState& world) {
+  world.turning_rows.clear();
+  if (world.counts.turning == 0 && !world.contact_data.materials.resists_turning()) return;
+  for (ContactRow<Real>& row : world.rows) {
+    const Pair& pair = world.pairs[world.contacts[row.contact].pair];
+    if (!(pair.rolling > Real(0)) && !(pair.torsional > Real(0))) continue;
+    row.turning = static_cast<std::uint32_t>(world.turning_rows.size());
+    world.turning_rows.push_back(make_turning_row(row, pair.rolling, pair.torsional));
+  }
+}
+
 }  // namespace
 
 void build_rows(WorldState& world) {
@@ -293,6 +332,7 @@ void build_rows(WorldState& world) {
     const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
     if (bodies.mass[a].mass > Real(0)) world.substep[a].constrained = true;
     if (bodies.mass[b].mass > Real(0)) world.substep[b].constrained = true;
+    if (pair.driven) world.substep[a].driven = world.substep[b].driven = true;
   }
   if (!world.joints.empty()) build_joints(world);
   world.rows.resize(count);
@@ -300,6 +340,7 @@ void build_rows(WorldState& world) {
     for (std::uint32_t i = begin; i < end; ++i)
       build_row(context, world.rows[i], world.row_order[i]);
   });
+  build_turning_rows(world);
   world.bouncing_rows.clear();
   for (std::uint32_t i = 0; i < count; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);
