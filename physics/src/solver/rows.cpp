@@ -4,6 +4,7 @@
 #include "collision/rolling.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
+#include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -161,31 +162,6 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                         inverse_rotate(collider.in_body.q, normal));
 }
 
-// How fast the collider's surface runs over its body at a place [m] from the body's centre of mass;
-// `spin` [rad/s] is how it turns there. World axes.
-Vec surface_velocity_at(const WorldState& world, std::uint32_t slot, Vec arm, Vec& spin) {
-  const ColliderInfo& collider = world.colliders.info[slot];
-  const SurfaceVelocity& surface = collider.component.surface_velocity;
-  const Rotation& q_body = world.bodies.pose[world.bodies.info[collider.body].dense].q;
-  const Rotation q = q_body * collider.in_body.q;
-  spin = rotate(q, to_inner(surface.angular));
-  return rotate(q, to_inner(surface.linear)) +
-         cross(spin, arm - rotate(q_body, collider.in_body.p));
-}
-
-// In the coordinates of friction, (x, y, z) of contact_row.h. The place is that of the middle of
-// the step, so that what a turntable carries stays on its circle.
-Vec drive_of(const WorldState& world, const Pair& pair, const ContactRow<Real>& row) {
-  const BodyStore& bodies = world.bodies;
-  const Vec v = bodies.velocity[bodies.info[pair.body_b].dense].v -
-                bodies.velocity[bodies.info[pair.body_a].dense].v;
-  const Vec ahead = (Real(0.5) * world.dt) * (v - dot(row.n, v) * row.n);
-  Vec spin_a, spin_b;
-  const Vec a = surface_velocity_at(world, pair.collider_a(), row.arm_a + ahead, spin_a);
-  const Vec b = surface_velocity_at(world, pair.collider_b(), row.arm_b - ahead, spin_b);
-  return {dot(row.t1, b - a), dot(row.t2, b - a), dot(row.n, spin_b - spin_a)};
-}
-
 void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t contact_index) {
   const WorldState& world = context.world;
   const BodyStore& bodies = world.bodies;
@@ -242,7 +218,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   make_points(row, contact, center, warm);
   make_block(row);
 
-  if (pair.driven) row.drive = drive_of(world, pair, row);
+  if (pair.driven) row.drive = drive_of(world, pair, row).velocity;
   row.friction = pair.friction;
   row.restitution = pair.restitution;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
@@ -341,6 +317,7 @@ void build_rows(WorldState& world) {
       build_row(context, world.rows[i], world.row_order[i]);
   });
   build_turning_rows(world);
+  find_spinning_rows(world);
   world.bouncing_rows.clear();
   for (std::uint32_t i = 0; i < count; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);

@@ -15,6 +15,7 @@
 #include "motion/body_motion.h"
 #include "solver/contact_kernel.h"
 #include "solver/joints/joint_stages.h"
+#include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -177,6 +178,8 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
     const bool turns = resist_turning(world, row, false, u);
     solve_friction(row, u, load, sliding);
     if (turns) sliding = load;  // its speeds ramp as those of what slides
+    // What a turntable carries has the velocity of the middle of the substep: nothing to correct.
+    if (row.drive.z != Real(0) && sliding < load) sliding = Real(0);
     write_velocities(world, row, u);
     for (const std::uint32_t body : {row.body_a, row.body_b}) {
       SubstepBody& s = world.substep[body];
@@ -267,6 +270,7 @@ void run_substeps(WorldState& world) {
   const bool joints = !world.joints.empty();
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
+    if (!world.spinning_rows.empty()) carry_drives(world);
     if (!world.bouncing_rows.empty()) run_impacts(world);
     for_awake_bodies(world, [&](std::uint32_t i) { kick(world, i); });
     if (joints) warm_start_joints(world);

@@ -65,6 +65,7 @@ void save_contact_data(ColumnWriter& out, const WorldState& world) {
 bool restore_contact_data(const Snapshot& in, WorldState& world) {
   ContactData& data = world.contact_data;
   TableReader table(in, "material_pair");
+  if (table.rows() == 0 && in.find("material_pair.kinds") != nullptr) return false;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     MaterialTable::Entry entry;
     bool has[4]{};

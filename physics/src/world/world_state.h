@@ -8,6 +8,7 @@
 #include "math/eigen_bridge.h"
 #include "plumb/world.h"
 #include "solver/contact_row.h"
+#include "solver/surface_drive.h"
 #include "solver/turning_row.h"
 #include "world/body_store.h"
 #include "world/collider_store.h"
@@ -112,6 +113,7 @@ struct WorldState {
   std::vector<ColorRange> colors;
   std::vector<ContactRow<Real>> rows;  // in colour order
   std::vector<std::uint32_t> bouncing_rows;
+  std::vector<SpinningRow> spinning_rows;
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
   std::vector<BodyDelta> delta;                // per dense index
   std::vector<SubstepBody> substep;            // per dense index

@@ -24,6 +24,12 @@ BodyId add_sensor(PhysicsWorld& world, const Vector3d& place, const Shape& shape
   sensor.is_sensor = true;
   return add(world, body_at(at(place, Quat::Identity()), type), sensor);
 }
+// A ball that comes to rest.
+Collider ball(double radius) {
+  Collider collider = with(sphere(radius));
+  collider.material.rolling_friction = collider.material.torsional_friction = real(0.1 * radius);
+  return collider;
+}
 ColliderId collider_of(const PhysicsWorld& world, BodyId body) {
   return world.colliders_of(body)[0];
 }
@@ -135,7 +141,7 @@ TEST(Contacts, TheWalkTellsWhatBeganAndWhatPersists) {
   add_floor(world);
   for (int i = 0; i < 30; ++i)
     add(world, body_at(at(random.uniform(-1, 1), 0.5 + 0.5 * i, random.uniform(-1, 1))),
-        with(i % 2 == 0 ? Shape(cube(0.2)) : Shape(sphere(0.2))));
+        i % 2 == 0 ? with(cube(0.2)) : ball(0.2));
   std::size_t began = 0, persisted = 0;
   for (int step = 0; step < 600; ++step) {
     world.step(kDt);
