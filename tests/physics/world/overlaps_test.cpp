@@ -45,10 +45,10 @@ TEST(Overlaps, AreWhatTheEventsAddUpTo) {
   add_floor(world);
   for (int i = 0; i < 4; ++i) add_sensor(world, {i - 1.5, 0.5 + i, 0}, box(1.5, 0.7, 3));
   std::vector<BodyId> bodies;
-  for (int i = 0; i < 60; ++i)
-    bodies.push_back(
-        add(world, body_at(at(random.uniform(-3, 3), random.uniform(1, 12), random.uniform(-3, 3))),
-            with(sphere(0.2))));
+  for (int i = 0; i < 60; ++i) {
+    const Vector3d place{random.uniform(-3, 3), random.uniform(1, 12), random.uniform(-3, 3)};
+    bodies.push_back(add(world, body_at(at(place, Quat::Identity())), ball(0.2)));
+  }
   std::set<SensorOverlap> inside;
   std::size_t most = 0;
   for (int step = 0; step < 900; ++step) {
@@ -140,9 +140,10 @@ TEST(Contacts, TheWalkTellsWhatBeganAndWhatPersists) {
   Random random(8);
   PhysicsWorld world;
   add_floor(world);
-  for (int i = 0; i < 30; ++i)
-    add(world, body_at(at(random.uniform(-1, 1), 0.5 + 0.5 * i, random.uniform(-1, 1))),
-        i % 2 == 0 ? with(cube(0.2)) : ball(0.2));
+  for (int i = 0; i < 30; ++i) {
+    const Vector3d place{random.uniform(-1, 1), 0.5 + 0.5 * i, random.uniform(-1, 1)};
+    add(world, body_at(at(place, Quat::Identity())), i % 2 == 0 ? with(cube(0.2)) : ball(0.2));
+  }
   std::size_t began = 0, persisted = 0;
   for (int step = 0; step < 600; ++step) {
     world.step(kDt);
