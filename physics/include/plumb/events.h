@@ -32,6 +32,13 @@ struct SensorEvent {
   ColliderId sensor, other;
 };
 
+// A collider that a sensor sees.
+struct SensorOverlap {
+  ColliderId sensor, other;
+  friend bool operator==(const SensorOverlap&, const SensorOverlap&) = default;
+  friend auto operator<=>(const SensorOverlap&, const SensorOverlap&) = default;
+};
+
 struct SleepEvent {
   BodyId body;
   bool fell_asleep = true;  // false: woke up
@@ -45,6 +52,9 @@ struct Events {
   std::span<const ContactEvent> contacts;
   std::span<const HitEvent> hits;
   std::span<const SensorEvent> sensors;
+  // Everything that sensors see after the step, asleep or awake, by sensor and then by the other:
+  // what has entered and not left. Kept up by the events alone.
+  std::span<const SensorOverlap> overlaps;
   std::span<const SleepEvent> sleep;
   std::span<const QuarantineEvent> quarantined;
   std::span<const JointBreakEvent> broken_joints;  // by index
@@ -60,9 +70,17 @@ struct ContactState {
   };
   ColliderId a, b;
   BodyId body_a, body_b;
+  bool began = false;           // in the last step; else it persists
   Vec3 normal = Vec3::UnitY();  // from A to B
   int point_count = 0;
   Point points[4];
+};
+
+// Where a walk over the touching pairs stands (PhysicsWorld::next_contact()).
+struct ContactCursor {
+  std::uint32_t island = 0;   // 0: the awake pairs, k: those of sleeping island k - 1
+  std::uint32_t pair = 0;     // within it
+  std::uint32_t contact = 0;  // of that pair
 };
 
 // One point of a touching pair, for whoever draws or counts them.

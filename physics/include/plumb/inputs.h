@@ -34,6 +34,11 @@ enum class InputKind : std::uint32_t {
   DestroyJoint,
   SetJointMotor,
   SetJointLimit,
+  SetSurfaceVelocity,
+  SetFilter,
+  SetMaterialPair,
+  ExcludeBodyPair,
+  ExcludeColliderPair,
 };
 const char* name_of(InputKind kind);
 

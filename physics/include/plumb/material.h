@@ -1,7 +1,8 @@
-// Surface properties of a collider and how two of them combine.
+// Surface properties of a collider, how two of them combine, and what meets what.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "plumb/precision.h"
 
@@ -15,13 +16,31 @@ struct Material {
   // Where two colliders name different rules, the one that stands later in CombineRule wins.
   CombineRule friction_rule = CombineRule::GeometricMean;
   CombineRule restitution_rule = CombineRule::Maximum;
+  // Resistance to turning in the contact, as the lever arm of the normal force: the torque is at
+  // most this times that force. The larger of two colliders' values counts.
+  Real rolling_friction = Real(0);    // [m] >= 0, finite; about axes in the contact plane
+  Real torsional_friction = Real(0);  // [m] >= 0, finite; about the contact normal
+  // Names what the surface is made of, for the world's table of pairs; 0: nothing in particular.
+  std::uint32_t kind = 0;
 };
 
-// What meets what. Two colliders meet when each one's `collides_with` holds a bit of the other's
-// `layers`.
+// What two kinds of material do when they meet, instead of what their colliders' numbers combine
+// to. What is left empty is combined as ever.
+struct MaterialPair {
+  std::optional<Real> friction{};            // [-] >= 0, finite
+  std::optional<Real> restitution{};         // [-] 0..1
+  std::optional<Real> rolling_friction{};    // [m] >= 0, finite
+  std::optional<Real> torsional_friction{};  // [m] >= 0, finite
+  friend bool operator==(const MaterialPair&, const MaterialPair&) = default;
+};
+
+// What meets what. Two colliders of one group that is not 0 always meet if it is positive, and
+// never if it is negative. All others meet when each one's `collides_with` holds a bit of the
+// other's `layers`. Pairs excluded by PhysicsWorld::exclude_pair() never meet.
 struct Filter {
   std::uint32_t layers = 1u;
   std::uint32_t collides_with = 0xffffffffu;
+  std::int32_t group = 0;
 };
 
 }  // namespace plumb::inline PLUMB_ABI

@@ -22,6 +22,9 @@ enum class PlanItem : unsigned char {
   Sleeping,
   DoublePositions,
   Joints,
+  RollingFriction,
+  SurfaceVelocity,
+  OneWay,
   Count,
 };
 const char* name_of(PlanItem item);

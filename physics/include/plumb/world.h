@@ -79,6 +79,23 @@ class PhysicsWorld {
   Status set_joint_motor(JointId joint, const std::optional<JointMotor>& motor, int axis = 0);
   Status set_joint_limit(JointId joint, const std::optional<JointLimit>& limit, int axis = 0);
 
+  // --- contact data ----------------------------------------------------------------------------
+  // Sets the belt running, or stops it; wakes the body and what lies on it.
+  Status set_surface_velocity(ColliderId collider, const SurfaceVelocity& velocity);
+  Status set_filter(ColliderId collider, const Filter& filter);  // wakes the body and what it meets
+  // What two kinds of material (Material::kind, not 0; the order does not matter) do when they
+  // meet. Empty: what their colliders' numbers combine to. Wakes what touches that way.
+  Status set_material_pair(std::uint32_t kind_a, std::uint32_t kind_b,
+                           const std::optional<MaterialPair>& values);
+  [[nodiscard]] std::optional<MaterialPair> material_pair(std::uint32_t kind_a,
+                                                          std::uint32_t kind_b) const;
+  // Two that are excluded never touch nor sense each other, whatever their filters say, until they
+  // are let again (excluded = false) or either is destroyed. Wakes both. Not the same one twice.
+  Status exclude_pair(BodyId a, BodyId b, bool excluded = true);
+  Status exclude_pair(ColliderId a, ColliderId b, bool excluded = true);
+  [[nodiscard]] bool is_excluded(BodyId a, BodyId b) const;
+  [[nodiscard]] bool is_excluded(ColliderId a, ColliderId b) const;  // themselves, not the bodies
+
   // --- stepping --------------------------------------------------------------------------------
   // dt: [s] finite, >= 0; 0 does nothing. Returns the report, also available as last_report().
   const StepReport& step(double dt);
@@ -125,6 +142,15 @@ class PhysicsWorld {
   void copy_moved_body_states(std::vector<BodyState>& out) const;  // only those the last step moved
   void copy_contacts(std::vector<ContactState>& out) const;
   void copy_contact_points(std::vector<ContactPoint>& out) const;  // the same, without whose
+  // The same one by one, with no list: false when there is no further one.
+  bool next_contact(ContactCursor& at, ContactState& out) const;
+  template <class Visit>
+  void each_contact(Visit&& visit) const {
+    ContactState contact;
+    for (ContactCursor at; next_contact(at, contact);) visit(contact);
+  }
+  // What one sensor sees: its part of Events::overlaps.
+  [[nodiscard]] std::span<const SensorOverlap> overlaps_of(ColliderId sensor) const;
   [[nodiscard]] EnergyReport energy() const;
 
   // --- queries ---------------------------------------------------------------------------------

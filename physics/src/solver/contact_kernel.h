@@ -186,7 +186,8 @@ inline constexpr T kSingularFor = T(1e-6);
 template <class T>
 inline void solve_friction(ContactRow<T>& row, RowVelocities<T>& u, T& load, T& sliding) {
   const Vector3<T> v = relative_velocity(u);
-  T x = dot(row.t1, v), y = dot(row.t2, v), z = dot(row.n, u.wb - u.wa);
+  T x = dot(row.t1, v) + row.drive.x, y = dot(row.t2, v) + row.drive.y,
+    z = dot(row.n, u.wb - u.wa) + row.drive.z;
   T p0 = T(0), p1 = T(0), p2 = T(0);
   load = T(0);
   sliding = T(0);

@@ -12,6 +12,8 @@
 //
 //   (x, y, z) = (t1 . vrel, t2 . vrel, n . wrel)      vt_i = (x - b_i z, y + a_i z)
 //
+// A surface that runs over its body (a belt) adds its own three numbers to (x, y, z).
+//
 // The impulse of one contact in four steps, as the textbooks have it [Millington 2010, ch. 14]: the
 // velocity change per unit impulse (K), the wanted change, the impulse, and its application with
 // opposite signs to both bodies.
@@ -42,6 +44,7 @@ struct SubstepBody {
   bool constrained = false;         // some row holds it
   bool contacts_changed = false;    // the set of loaded points is not that of the last substep
   bool bounced = false;             // in this substep
+  bool driven = false;              // it touches a surface that runs
   bool jointed = false;             // some joint holds it
   bool split = false;               // ... and nothing that hangs on it touches anything
 };
@@ -59,6 +62,7 @@ Softness make_softness(Real frequency, Real damping_ratio, Real h);
 template <class T>
 struct ContactRow {
   static constexpr int kMaxPoints = 4;
+  static constexpr std::uint32_t kNoTurning = 0xffffffffu;
   std::uint32_t body_a = 0, body_b = 0;  // dense; 0: nothing that moves
   std::uint32_t contact = 0;             // index into the world's contacts
   int count = 0;
@@ -77,6 +81,8 @@ struct ContactRow {
   T block[10] = {};
   bool has_block = false;
   T friction = T(0), restitution = T(0);
+  Vector3<T> drive{};  // [m/s, m/s, rad/s] of B's surface over A's, added to (x, y, z)
+  std::uint32_t turning = kNoTurning;  // its row of rolling and torsional friction, if any
   T bias_rate = T(0), mass_scale = T(1), impulse_scale = T(0);
   T push_speed = T(0);      // [m/s] limit of the velocity that works off overlap
   T push_speed_now = T(0);  // [m/s] the same in this substep

@@ -234,6 +234,7 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
 
   struct Point {
     Vec ra, rb;
+    Vec drive;                       // [m/s] of B's surface over A's
     Real wanted = 0, k_n = 0;        // [m/s], [1/kg]
     Real k11 = 0, k12 = 0, k22 = 0;  // [1/kg] tangential response
     Real l_n = 0, l_1 = 0, l_2 = 0;  // [N s]
@@ -264,6 +265,8 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
     Point& p = points[count++];
     p.ra = arm(A);
     p.rb = arm(B);
+    p.drive = (row.drive.x - row.points[i].b * row.drive.z) * row.t1 +
+              (row.drive.y + row.points[i].a * row.drive.z) * row.t2;
     p.index = i;
     if (row.both_dynamic) {  // one common point keeps the angular momentum
       const Vec apart = row.between + world.delta[row.body_b].dp - world.delta[row.body_a].dp +
@@ -302,7 +305,7 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
       largest_change = std::max(largest_change, std::abs(d_n));
       largest = std::max(largest, total);
       if (!(row.friction > Real(0))) continue;
-      const Vec v = relative(p);
+      const Vec v = relative(p) + p.drive;
       const Real determinant = p.k11 * p.k22 - p.k12 * p.k12, trace = p.k11 + p.k22;
       if (!(trace > Real(0))) continue;
       const Real v1 = dot(t1, v), v2 = dot(t2, v);

@@ -5,6 +5,8 @@
 #include "math/symmetric_inverse.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
+#include "solver/surface_drive.h"
+#include "solver/turning_kernel.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -206,6 +208,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   make_points(row, contact, center, warm);
   make_block(row);
 
+  if (pair.driven) row.drive = drive_of(world, pair, row).velocity;
   row.friction = pair.friction;
   row.restitution = pair.restitution;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
@@ -247,6 +250,18 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.loaded = loaded_points(world, row);
 }
 
+// Gives the rows of pairs that resist turning their own; one test a step where nothing does.
+void build_turning_rows(WorldState& world) {
+  world.turning_rows.clear();
+  if (world.counts.turning == 0 && !world.contact_data.materials.resists_turning()) return;
+  for (ContactRow<Real>& row : world.rows) {
+    const Pair& pair = world.pairs[world.contacts[row.contact].pair];
+    if (!(pair.rolling > Real(0)) && !(pair.torsional > Real(0))) continue;
+    row.turning = static_cast<std::uint32_t>(world.turning_rows.size());
+    world.turning_rows.push_back(make_turning_row(row, pair.rolling, pair.torsional));
+  }
+}
+
 }  // namespace
 
 void build_rows(WorldState& world) {
@@ -283,6 +298,7 @@ void build_rows(WorldState& world) {
     const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
     if (bodies.mass[a].mass > Real(0)) world.substep[a].constrained = true;
     if (bodies.mass[b].mass > Real(0)) world.substep[b].constrained = true;
+    if (pair.driven) world.substep[a].driven = world.substep[b].driven = true;
   }
   if (!world.joints.empty()) build_joints(world);
   world.rows.resize(count);
@@ -290,6 +306,8 @@ void build_rows(WorldState& world) {
     for (std::uint32_t i = begin; i < end; ++i)
       build_row(context, world.rows[i], world.row_order[i]);
   });
+  build_turning_rows(world);
+  find_spinning_rows(world);
   world.bouncing_rows.clear();
   for (std::uint32_t i = 0; i < count; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);

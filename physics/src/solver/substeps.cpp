@@ -16,6 +16,8 @@
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
 #include "solver/joints/joint_stages.h"
+#include "solver/surface_drive.h"
+#include "solver/turning_kernel.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -112,13 +114,26 @@ void note_loaded_points(WorldState& world, ContactRow<Real>& row) {
   if (world.substep[row.body_b].constrained) world.substep[row.body_b].contacts_changed = true;
 }
 
+// Rolling and torsional friction of a row that has it. Returns whether it turns nevertheless.
+bool resist_turning(WorldState& world, const ContactRow<Real>& row, bool first_pass,
+                    RowVelocities<Real>& u) {
+  if (row.turning == ContactRow<Real>::kNoTurning) return false;
+  TurningRow<Real>& turning = world.turning_rows[row.turning];
+  if (first_pass) turning.impulse1 = turning.impulse2 = turning.impulse3 = Real(0);
+  return solve_turning(row, turning, u);
+}
+
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
   if (!row.skip) {
     const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
     RowVelocities<Real> u = read_velocities(world, row);
     Real load = 0, sliding = 0;
     solve_normal(row, change, inverse_h, false, u);
+    const bool turns = resist_turning(world, row, false, u);
     solve_friction(row, u, load, sliding);
+    if (turns) sliding = load;  // its speeds ramp as those of what slides
+    // What a turntable carries has the velocity of the middle of the substep: nothing to correct.
+    if (row.drive.z != Real(0) && sliding < load) sliding = Real(0);
     write_velocities(world, row, u);
     for (const std::uint32_t body : {row.body_a, row.body_b}) {
       SubstepBody& s = world.substep[body];
@@ -209,6 +224,7 @@ void run_substeps(WorldState& world) {
   const bool joints = !world.joints.empty();
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
+    if (!world.spinning_rows.empty()) carry_drives(world);
     if (!world.bouncing_rows.empty()) run_impacts(world);
     for_awake_bodies(world, [&](std::uint32_t i) {
       if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
@@ -228,6 +244,7 @@ void run_substeps(WorldState& world) {
       RowVelocities<Real> u = read_velocities(world, row);
       Real load = 0, sliding = 0;
       solve_normal(row, change, inverse_h, true, u);
+      resist_turning(world, row, true, u);
       solve_friction(row, u, load, sliding);
       write_velocities(world, row, u);
     });

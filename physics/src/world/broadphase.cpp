@@ -3,28 +3,11 @@
 #include <cmath>
 
 #include "math/eigen_bridge.h"
-#include "world/joint_world.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
-
-Real combine(CombineRule rule, Real a, Real b) {
-  switch (rule) {
-    case CombineRule::Average:
-      return Real(0.5) * (a + b);
-    case CombineRule::GeometricMean:
-      return std::sqrt(a * b);
-    case CombineRule::Minimum:
-      return std::min(a, b);
-    case CombineRule::Maximum:
-      return std::max(a, b);
-    case CombineRule::Multiply:
-      return a * b;
-  }
-  return a;
-}
 
 WorldAabb grown(const WorldAabb& box, PosReal by) {
   const PosVec m{by, by, by};
@@ -76,38 +59,6 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
 }
 
 }  // namespace
-
-bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t collider_b) {
-  const ColliderInfo& a = world.colliders.info[collider_a];
-  const ColliderInfo& b = world.colliders.info[collider_b];
-  if (a.body == b.body) return false;
-  const MotionType type_a = world.bodies.info[a.body].type, type_b = world.bodies.info[b.body].type;
-  if (type_a != MotionType::Dynamic && type_b != MotionType::Dynamic) return false;
-  if (a.component.is_sensor && b.component.is_sensor) return false;
-  if (!world.joints.empty() && !a.component.is_sensor && !b.component.is_sensor &&
-      joined_without_contact(world, a.body, b.body))
-    return false;
-  return (a.component.filter.layers & b.component.filter.collides_with) != 0 &&
-         (b.component.filter.layers & a.component.filter.collides_with) != 0;
-}
-
-Pair make_pair(const WorldState& world, std::uint64_t key) {
-  Pair pair;
-  pair.key = key;
-  const ColliderInfo& a = world.colliders.info[pair.collider_a()];
-  const ColliderInfo& b = world.colliders.info[pair.collider_b()];
-  pair.body_a = a.body;
-  pair.body_b = b.body;
-  pair.sensor = a.component.is_sensor || b.component.is_sensor;
-  const Material& ma = a.component.material;
-  const Material& mb = b.component.material;
-  pair.friction = combine(std::max(ma.friction_rule, mb.friction_rule), ma.friction, mb.friction);
-  pair.restitution =
-      combine(std::max(ma.restitution_rule, mb.restitution_rule), ma.restitution, mb.restitution);
-  pair.slop = tolerance::kSlopFraction * std::min(a.thickness, b.thickness);
-  pair.relative_to_b = world.bodies.info[a.body].type != MotionType::Dynamic;
-  return pair;
-}
 
 PosVec update_reach(WorldState& world, std::uint32_t slot) {
   const Reach reach = reach_in_next_step(world, world.colliders.info[slot]);

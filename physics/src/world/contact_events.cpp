@@ -9,10 +9,8 @@ namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
 void note_sensor(WorldState& world, const Pair& pair, SensorEvent::Kind kind) {
-  const ColliderId a = world.colliders.id(pair.collider_a()),
-                   b = world.colliders.id(pair.collider_b());
-  const bool a_senses = world.colliders.info[a.index].component.is_sensor;
-  world.gathering.sensors.push_back({kind, a_senses ? a : b, a_senses ? b : a});
+  const SensorOverlap overlap = overlap_of(world, pair);
+  world.gathering.sensors.push_back({kind, overlap.sensor, overlap.other});
 }
 
 void note_contact(WorldState& world, const Pair& pair, ContactEvent::Kind kind) {
@@ -24,6 +22,13 @@ void note_contact(WorldState& world, const Pair& pair, ContactEvent::Kind kind) 
 }
 
 }  // namespace
+
+SensorOverlap overlap_of(const WorldState& world, const Pair& pair) {
+  const ColliderId a = world.colliders.id(pair.collider_a()),
+                   b = world.colliders.id(pair.collider_b());
+  const bool a_senses = world.colliders.info[a.index].component.is_sensor;
+  return {a_senses ? a : b, a_senses ? b : a};
+}
 
 void note_pair_end(WorldState& world, const Pair& pair) {
   if (!pair.was_touching) return;
@@ -54,6 +59,7 @@ void note_contact_events(WorldState& world) {
     }
     if (now == pair.was_touching) continue;
     pair.was_touching = now;
+    if (now) pair.began = static_cast<std::uint32_t>(world.step_count);
     if (pair.sensor) {
       note_sensor(world, pair, now ? SensorEvent::Kind::Enter : SensorEvent::Kind::Exit);
     } else {

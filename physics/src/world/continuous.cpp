@@ -24,6 +24,7 @@
 
 #include "motion/body_motion.h"
 #include "world/body_sweep.h"
+#include "world/one_way.h"
 #include "world/tolerances.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -267,7 +268,9 @@ struct Follower {
             sweep_of_step(world, world.bodies.info[collider.body].dense, mover.start);
         const Impact impact = time_of_impact(swept_shape(collider, sweep), on_path(own, path),
                                              search_for(own, collider, begin, until));
-        if (impact.status == ImpactStatus::Apart) continue;
+        if (impact.status == ImpactStatus::Apart ||
+            passes_one_way(world, other, slot, impact.normal))
+          continue;
         first = {impact.time, collider.body};
       }
     }
@@ -332,7 +335,9 @@ Num meeting_time(const WorldState& world, const std::vector<Mover>& movers, cons
     const Path path_a = path_from(a, t, a.start), path_b = path_from(b, t, a.start);
     const Impact impact = time_of_impact(on_path(collider_a, path_a), on_path(collider_b, path_b),
                                          search_for(collider_a, collider_b, t, until));
-    if (impact.status != ImpactStatus::Apart) return impact.time;
+    if (impact.status != ImpactStatus::Apart)
+      return passes_one_way(world, pair.collider_a, pair.collider_b, impact.normal) ? kNever
+                                                                                    : impact.time;
     t = until;
   }
   return kNever;

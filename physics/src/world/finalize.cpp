@@ -79,6 +79,7 @@ void finalize_bodies(WorldState& world) {
       bodies.rest(body);
   }
   note_contact_events(world);
+  if (!world.gathering.sensors.empty()) update_overlaps(world);
   world.time += static_cast<double>(world.report.dt);
   world.report.time = world.time;
   world.report.awake_bodies = static_cast<std::uint32_t>(moved.size());

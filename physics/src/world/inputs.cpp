@@ -4,8 +4,13 @@
 //              linear damping, angular damping, gravity scale, can sleep, starts awake,
 //              continuous, user data u64
 //   mass       mass, centre x3, inertia xx yy zz xy xz yz
-//   collider   shape, position x3, orientation x4, friction, restitution, two rules, layers,
-//              collides with, density, is sensor, user data u64
+//   collider   shape, position x3, orientation x4, friction, restitution, two rules, rolling and
+//              torsional friction, kind, filter, density, is sensor, user data u64, surface
+//              velocity, one-way direction x3
+//   filter     layers, collides with, group
+//   surface velocity   linear x3, angular x3
+//   material pair      given, and if it is, for friction, restitution, rolling and torsional
+//              friction each: given, value
 //   shape      0 sphere: radius | 1 box: half extents x3 | 2 capsule: half length, radius
 //              3 hull: vertex count, vertices x3, face count, (size, vertices...) a face
 //              4 half-space: normal x3, offset
@@ -18,6 +23,7 @@
 //              sleeping, time to sleep, profiling
 #include "world/inputs.h"
 
+#include <array>
 #include <limits>
 
 #include "world/joint_inputs.h"
@@ -70,16 +76,22 @@ const char* name_of(InputKind kind) {
       return "set_joint_motor";
     case InputKind::SetJointLimit:
       return "set_joint_limit";
+    case InputKind::SetSurfaceVelocity:
+      return "set_surface_velocity";
+    case InputKind::SetFilter:
+      return "set_filter";
+    case InputKind::SetMaterialPair:
+      return "set_material_pair";
+    case InputKind::ExcludeBodyPair:
+      return "exclude_body_pair";
+    case InputKind::ExcludeColliderPair:
+      return "exclude_collider_pair";
   }
   return "unknown";
 }
 
 namespace detail {
 namespace {
-
-void append_long(std::vector<double>& out, std::uint64_t v) {
-  append_all(out, {static_cast<double>(v & 0xffffffffu), static_cast<double>(v >> 32)});
-}
 
 template <class Enum>
 Enum choice(NumberReader& in, std::uint32_t count, bool& ok) {
@@ -88,8 +100,18 @@ Enum choice(NumberReader& in, std::uint32_t count, bool& ok) {
   return static_cast<Enum>(value < count ? value : 0);
 }
 
+// The fields of a material pair in their order.
+template <class Values>
+auto fields_of(Values& values) {
+  return std::array{&values.friction, &values.restitution, &values.rolling_friction,
+                    &values.torsional_friction};
+}
+
 }  // namespace
 
+void append_long(std::vector<double>& out, std::uint64_t v) {
+  append_all(out, {static_cast<double>(v & 0xffffffffu), static_cast<double>(v >> 32)});
+}
 void append(std::vector<double>& out, const Vec3& v) {
   append_all(out, {as_number(v.x()), as_number(v.y()), as_number(v.z())});
 }
@@ -129,10 +151,27 @@ void append(std::vector<double>& out, const Collider& collider) {
   const Material& m = collider.material;
   append_all(out,
              {as_number(m.friction), as_number(m.restitution), static_cast<double>(m.friction_rule),
-              static_cast<double>(m.restitution_rule), static_cast<double>(collider.filter.layers),
-              static_cast<double>(collider.filter.collides_with), collider.density,
-              collider.is_sensor ? 1.0 : 0.0});
+              static_cast<double>(m.restitution_rule), as_number(m.rolling_friction),
+              as_number(m.torsional_friction), static_cast<double>(m.kind)});
+  append(out, collider.filter);
+  append_all(out, {collider.density, collider.is_sensor ? 1.0 : 0.0});
   append_long(out, collider.user_data);
+  append(out, collider.surface_velocity);
+  append(out, collider.one_way);
+}
+void append(std::vector<double>& out, const SurfaceVelocity& velocity) {
+  append(out, velocity.linear);
+  append(out, velocity.angular);
+}
+void append(std::vector<double>& out, const Filter& filter) {
+  append_all(out, {static_cast<double>(filter.layers), static_cast<double>(filter.collides_with),
+                   static_cast<double>(filter.group)});
+}
+void append(std::vector<double>& out, const std::optional<MaterialPair>& values) {
+  out.push_back(values.has_value() ? 1.0 : 0.0);
+  if (!values.has_value()) return;
+  for (const auto* field : fields_of(*values))
+    append_all(out, {field->has_value() ? 1.0 : 0.0, as_number(field->value_or(Real(0)))});
 }
 void append(std::vector<double>& out, const WorldSettings& s) {
   append(out, s.gravity);
@@ -213,12 +252,44 @@ Collider NumberReader::collider() {
   collider.material.restitution = real();
   collider.material.friction_rule = choice<CombineRule>(*this, 5, ok_);
   collider.material.restitution_rule = choice<CombineRule>(*this, 5, ok_);
-  collider.filter.layers = word();
-  collider.filter.collides_with = word();
+  collider.material.rolling_friction = real();
+  collider.material.torsional_friction = real();
+  collider.material.kind = word();
+  collider.filter = filter();
   collider.density = number();
   collider.is_sensor = flag();
   collider.user_data = long_word();
+  collider.surface_velocity = surface_velocity();
+  collider.one_way = vector();
   return collider;
+}
+SurfaceVelocity NumberReader::surface_velocity() {
+  SurfaceVelocity velocity;
+  velocity.linear = vector();
+  velocity.angular = vector();
+  return velocity;
+}
+Filter NumberReader::filter() {
+  Filter filter;
+  filter.layers = word();
+  filter.collides_with = word();
+  const double group = number();
+  if (!(group >= -2147483648.0 && group <= 2147483647.0) || group != std::floor(group)) {
+    ok_ = false;
+    return filter;
+  }
+  filter.group = static_cast<std::int32_t>(group);
+  return filter;
+}
+std::optional<MaterialPair> NumberReader::material_pair() {
+  if (!flag()) return {};
+  MaterialPair values;
+  for (auto* field : fields_of(values)) {
+    const bool given = flag();
+    const Real value = real();
+    if (given) *field = value;
+  }
+  return values;
 }
 WorldSettings NumberReader::settings() {
   WorldSettings s;
@@ -293,6 +364,31 @@ Status PhysicsWorld::apply_input(const InputRecord& input) {
       const auto limit = detail::read_limit(in, ok);
       return ok && in.complete() ? set_joint_limit(JointId::from_value(input.target), limit, axis)
                                  : malformed;
+    }
+    case InputKind::SetSurfaceVelocity: {
+      const SurfaceVelocity velocity = in.surface_velocity();
+      return in.complete() ? set_surface_velocity(ColliderId::from_value(input.target), velocity)
+                           : malformed;
+    }
+    case InputKind::SetFilter: {
+      const Filter filter = in.filter();
+      return in.complete() ? set_filter(ColliderId::from_value(input.target), filter) : malformed;
+    }
+    case InputKind::SetMaterialPair: {
+      const std::uint32_t kind_a = in.word(), kind_b = in.word();
+      const std::optional<MaterialPair> values = in.material_pair();
+      return in.complete() ? set_material_pair(kind_a, kind_b, values) : malformed;
+    }
+    case InputKind::ExcludeBodyPair: {
+      const BodyId other = BodyId::from_value(in.long_word());
+      const bool excluded = in.flag();
+      return in.complete() ? exclude_pair(body, other, excluded) : malformed;
+    }
+    case InputKind::ExcludeColliderPair: {
+      const ColliderId other = ColliderId::from_value(in.long_word());
+      const bool excluded = in.flag();
+      return in.complete() ? exclude_pair(ColliderId::from_value(input.target), other, excluded)
+                           : malformed;
     }
     case InputKind::ApplyForceAt:
     case InputKind::ApplyImpulseAt: {

@@ -28,6 +28,10 @@ void append(std::vector<double>& out, const MassProperties& m);
 void append(std::vector<double>& out, const RigidBody& body);
 void append(std::vector<double>& out, const Collider& collider);
 void append(std::vector<double>& out, const WorldSettings& settings);
+void append(std::vector<double>& out, const SurfaceVelocity& velocity);
+void append(std::vector<double>& out, const Filter& filter);
+void append(std::vector<double>& out, const std::optional<MaterialPair>& values);
+void append_long(std::vector<double>& out, std::uint64_t v);  // low and high 32 bits
 
 // Reads numbers in order; remembers when there were too few or one was no valid choice.
 class NumberReader {
@@ -45,6 +49,9 @@ class NumberReader {
   RigidBody body();
   Collider collider();
   WorldSettings settings();
+  SurfaceVelocity surface_velocity();
+  Filter filter();
+  std::optional<MaterialPair> material_pair();
   [[nodiscard]] bool complete() const { return ok_ && at_ == numbers_.size(); }
   [[nodiscard]] bool ok() const { return ok_; }
 

@@ -64,7 +64,8 @@ void update_rest_time(WorldState& world, std::uint32_t dense) {
   const bool still = length_squared(velocity.v) == Real(0) &&
                      length_squared(velocity.w) == Real(0) &&
                      length_squared(world.substep[dense].acceleration) == Real(0);
-  const bool rests = info.can_sleep && (supported ? speed < limit : still);
+  const bool rests =
+      info.can_sleep && !world.substep[dense].driven && (supported ? speed < limit : still);
   info.rest_time = rests ? info.rest_time + world.dt : Real(0);
 }
 
@@ -102,7 +103,7 @@ void move_pairs_to_islands(WorldState& world) {
     const std::uint32_t in_b = world.bodies.info[pair.body_b].island;
     if (in_a == kNone && in_b == kNone) return false;
     if (world.bodies.is_awake(pair.body_a) || world.bodies.is_awake(pair.body_b)) return false;
-    if (pair.was_touching || pair.touching) {
+    if (pair.was_touching || pair.touching || pair.passage == Passage::Passing) {
       SleepingIsland& island = world.islands[in_a != kNone ? in_a : in_b];
       move_contacts(pair, world.contacts, island.contacts);
       island.pairs.push_back(pair);

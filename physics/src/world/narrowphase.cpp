@@ -4,6 +4,7 @@
 
 #include "collision/collide_parts.h"
 #include "world/body_sweep.h"
+#include "world/one_way.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -179,8 +180,7 @@ void collide_pair_of_parts(const WorldState& world, std::uint32_t index, const P
   }
 }
 
-// Appends the contacts of one pair to `out`. Reads the world, writes only there and to the pair's
-// findings, so that all pairs can be worked on at once.
+// Appends the contacts of one pair to `out`.
 void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& out) {
   const Pair& pair = world.pairs[index];
   PairFindings& found = world.findings[index];
@@ -194,7 +194,9 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
   if (!meet) {
     const WorldAabb& box_a = (a.is_static ? world.static_tree : world.moving_tree).box(a.proxy);
     const WorldAabb& box_b = (b.is_static ? world.static_tree : world.moving_tree).box(b.proxy);
-    found.gone = !some_awake || !overlaps(box_a, box_b);
+    // A sensor that came to rest goes on seeing what sleeps in it.
+    found.overlaps = pair.sensor && pair.touching && !some_awake;
+    found.gone = !overlaps(box_a, box_b) || (!some_awake && !found.overlaps);
     return;
   }
   const PosVec reference =
@@ -236,6 +238,19 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
   }
 }
 
+// Finds the contacts of one pair. Reads the world, writes only to `out` and to the pair's findings,
+// so that all pairs can be worked on at once.
+void find_contacts(WorldState& world, std::size_t index, std::vector<Contact>& out) {
+  collide_pair(world, index, out);
+  const Pair& pair = world.pairs[index];
+  if (!pair.one_way) return;
+  PairFindings& found = world.findings[index];
+  found.passage = passage_of(world, pair, std::span(out).subspan(found.first, found.count));
+  if (found.passage != Passage::Passing) return;
+  out.resize(found.first);
+  found.count = 0;
+}
+
 void collide_all(WorldState& world) {
   const std::uint32_t count = static_cast<std::uint32_t>(world.pairs.size());
   const std::uint32_t chunks = (count + tolerance::kPairGrain - 1) / tolerance::kPairGrain;
@@ -244,7 +259,7 @@ void collide_all(WorldState& world) {
   parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
     std::vector<Contact>& out = world.contacts_by_chunk[begin / tolerance::kPairGrain];
     out.clear();
-    for (std::uint32_t i = begin; i < end; ++i) collide_pair(world, i, out);
+    for (std::uint32_t i = begin; i < end; ++i) find_contacts(world, i, out);
   });
 }
 
@@ -276,6 +291,7 @@ void take_findings(WorldState& world) {
     pair.first_contact = found.first;
     pair.contact_count = found.count;
     pair.touching = found.count > 0 || found.overlaps;
+    pair.passage = found.passage;
     move_contacts(pair, world.contacts_by_chunk[chunk], world.new_contacts);
     for (Contact& contact : contacts_of(pair, world.new_contacts)) contact.pair = kept;
     ++kept;

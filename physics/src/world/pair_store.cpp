@@ -4,10 +4,10 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-bool PairStore::contains(std::uint64_t key) const {
+const Pair* PairStore::find(std::uint64_t key) const {
   const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), key,
                                    [](const Pair& pair, std::uint64_t k) { return pair.key < k; });
-  return at != pairs_.end() && at->key == key;
+  return at != pairs_.end() && at->key == key ? &*at : nullptr;
 }
 
 void PairStore::insert_sorted(const std::vector<Pair>& added) {

@@ -14,17 +14,29 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-struct Pair {                            // 48 bytes in f32
+// What a pair with a one-way collider remembers from its first meeting until its shapes part.
+enum class Passage : std::uint8_t {
+  Apart,    // nothing yet
+  Held,     // met from the solid side: it stays solid
+  Passing,  // met from elsewhere: no contact
+};
+
+struct Pair {                            // 56 bytes in f32
   std::uint64_t key = 0;                 // smaller collider slot << 32 | larger one
   std::uint32_t body_a = 0, body_b = 0;  // slots
   Real friction = 0, restitution = 0;    // combined [-]
+  Real rolling = 0, torsional = 0;       // combined [m]
   Real slop = 0;                         // [m]
   std::uint32_t first_contact = 0;       // where its contacts lie, in order of their part
   std::uint32_t contact_count = 0;
+  std::uint32_t began = 0;  // step in which the touch began, low 32 bits
   bool sensor = false;
   bool touching = false;       // has contacts (sensor: overlaps)
   bool was_touching = false;   // after the previous step
   bool relative_to_b = false;  // positions of its contacts are seen from B's centre, else from A's
+  bool driven = false;         // the surface of one of them runs
+  bool one_way = false;        // one of them is solid from one side only
+  Passage passage = Passage::Apart;
 
   [[nodiscard]] std::uint32_t collider_a() const { return static_cast<std::uint32_t>(key >> 32); }
   [[nodiscard]] std::uint32_t collider_b() const {
@@ -88,7 +100,8 @@ class PairStore {
     }
     pairs_.resize(kept);
   }
-  [[nodiscard]] bool contains(std::uint64_t key) const;
+  [[nodiscard]] const Pair* find(std::uint64_t key) const;  // null: there is none
+  [[nodiscard]] bool contains(std::uint64_t key) const { return find(key) != nullptr; }
 
  private:
   std::vector<Pair> pairs_, merged_;

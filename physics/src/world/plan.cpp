@@ -39,6 +39,12 @@ const char* name_of(PlanItem item) {
       return "double positions";
     case PlanItem::Joints:
       return "joints";
+    case PlanItem::RollingFriction:
+      return "rolling friction";
+    case PlanItem::SurfaceVelocity:
+      return "surface velocity";
+    case PlanItem::OneWay:
+      return "one-way colliders";
     case PlanItem::Count:
       break;
   }
@@ -201,6 +207,15 @@ StepPlan PhysicsWorld::plan() const {
   decide(
       PlanItem::Joints, joints > 0,
       joints > 0 ? std::to_string(joints) + " joints hold bodies together" : "there is no joint");
+  const detail::SceneCounts& counts = world.counts;
+  const bool by_table = world.contact_data.materials.resists_turning();
+  decide(PlanItem::RollingFriction, counts.turning > 0 || by_table,
+         std::to_string(counts.turning) + " colliders resist rolling or turning" +
+             (by_table ? ", and some pairs of materials do" : ""));
+  decide(PlanItem::SurfaceVelocity, counts.driven > 0,
+         std::to_string(counts.driven) + " colliders have a surface that runs");
+  decide(PlanItem::OneWay, counts.one_way > 0,
+         std::to_string(counts.one_way) + " colliders are solid from one side only");
   return plan;
 }
 

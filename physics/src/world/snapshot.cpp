@@ -12,6 +12,7 @@
 #include "world/inputs.h"
 #include "world/joint_world.h"
 #include "world/shape_numbers.h"
+#include "world/snapshot_contact_data.h"
 #include "world/snapshot_geometry.h"
 #include "world/snapshot_table.h"
 #include "world/world_state.h"
@@ -74,9 +75,16 @@ void visit_collider(Table& t, ColliderInfo& c, ShapeNumbers& shape, WorldAabb& b
   t("position", p.position.x(), p.position.y(), p.position.z());
   t("orientation", p.orientation.x(), p.orientation.y(), p.orientation.z(), p.orientation.w());
   Material& m = c.component.material;
-  t("surface", m.friction, m.restitution);
+  t("surface", m.friction, m.restitution, m.rolling_friction, m.torsional_friction);
   t("surface_rules", m.friction_rule, m.restitution_rule);
-  t("filter", c.component.filter.layers, c.component.filter.collides_with);
+  t("surface_kind", m.kind);
+  SurfaceVelocity& s = c.component.surface_velocity;
+  t("surface_velocity", s.linear.x(), s.linear.y(), s.linear.z());
+  t("surface_spin", s.angular.x(), s.angular.y(), s.angular.z());
+  Vec3& one_way = c.component.one_way;
+  t("one_way", one_way.x(), one_way.y(), one_way.z());
+  Filter& filter = c.component.filter;
+  t("filter", filter.layers, filter.collides_with, filter.group);
   t("density", c.component.density);
   t("user_data", c.component.user_data);
   t("bounds", box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z);
@@ -88,6 +96,8 @@ void visit_pair(Table& t, Pair& p, std::uint32_t& island) {
   t("key", p.key);
   t("island", island);
   t("flags", p.touching, p.was_touching);
+  t("passage", p.passage);
+  t("began", p.began);
   t("contacts", p.contact_count);
 }
 
@@ -236,8 +246,7 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
       info.shape = make_collision_shape(info.component.shape);
       info.proxy = (info.is_static ? world.static_tree : world.moving_tree)
                        .insert(box, static_cast<std::uint32_t>(slot));
-      world.counts.sensors += info.component.is_sensor ? 1 : 0;
-      world.counts.restitution += info.component.material.restitution > 0 ? 1 : 0;
+      count_collider(world.counts, info.component, 1);
     }
     world.colliders.info.push_back(std::move(info));
   }
@@ -300,9 +309,8 @@ bool restore_pairs(const Snapshot& in, WorldState& world) {
         seen.collider_b() >= colliders.size())
       return false;
     if (!colliders[seen.collider_a()].alive || !colliders[seen.collider_b()].alive) return false;
-    Pair pair = make_pair(world, seen.key);
-    pair.touching = seen.touching;
-    pair.was_touching = seen.was_touching;
+    if (seen.passage > Passage::Passing) return false;
+    Pair pair = remake_pair(world, seen);
     const bool asleep = island != kNone;
     if (asleep && (island >= world.islands.size() || !world.islands[island].used)) return false;
     if (!asleep && !awake.empty() && awake.back().key >= pair.key) return false;
@@ -319,7 +327,9 @@ bool restore_pairs(const Snapshot& in, WorldState& world) {
       store.push_back(contact);
     }
     (asleep ? world.islands[island].pairs : awake).push_back(pair);
+    if (pair.sensor && pair.was_touching) world.overlaps.push_back(overlap_of(world, pair));
   }
+  std::sort(world.overlaps.begin(), world.overlaps.end());
   world.pairs.insert_sorted(awake);
   return true;
 }
@@ -411,6 +421,7 @@ void PhysicsWorld::save(Snapshot& snapshot) const {
   add_list(out, "collider_order", "slot", order);
   add_list(out, "collider_free", "slot", world.colliders.free_slots);
   add_list(out, "island_free", "index", world.free_islands);
+  save_contact_data(out, world);
   save_pairs(out, world);
   save_joints(out, world);
 }
@@ -433,8 +444,8 @@ Status PhysicsWorld::restore(const Snapshot& snapshot) {
   visit_world(table, *made);
   if (!table.ok() || !check(made->settings).ok()) return damaged;
   if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) ||
-      !restore_islands(snapshot, *made) || !restore_pairs(snapshot, *made) ||
-      !restore_joints(snapshot, *made))
+      !restore_islands(snapshot, *made) || !restore_contact_data(snapshot, *made) ||
+      !restore_pairs(snapshot, *made) || !restore_joints(snapshot, *made))
     return damaged;
   restore_lists(*made);
   made->jobs = state_->jobs;

@@ -62,8 +62,9 @@ void add_bodies(Digest& digest, const WorldState& world) {
 }
 
 void add_contacts(Digest& digest, const WorldState& world) {
-  // Pairs without contacts follow from the poses and boxes.
+  // Pairs without contacts follow from the poses and boxes, but for those that let through.
   for (const Pair& pair : world.pairs) {
+    if (pair.passage == Passage::Passing) digest.add(~pair.key);
     for (const Contact& contact : contacts_of(pair, world.contacts)) {
       const int count = contact.manifold.count;
       digest.add(pair.key);

@@ -74,6 +74,13 @@ inline constexpr Real kContinuousOverlapSlops = Real(4);
 inline constexpr Real kContinuousTouchSlops = Real(4);
 inline constexpr Real kContinuousAllowance = Real(0.125);
 
+// A one-way collider is solid for what lies within 60 degrees of its direction [-]: the sides of a
+// plate let through, its rounded rims hold.
+inline constexpr Real kOneWayCosine = Real(0.5);
+// What overlaps it by more than this many slops when they first meet is inside and passes [-]. More
+// than the 5 slops at which the continuous stage leaves what it has stopped on the solid side.
+inline constexpr Real kOneWayInsideSlops = Real(10);
+
 // A body counts as being at rest below this fraction of sqrt(g d) [-], d its size: the speed it
 // would have after falling 1e-4 d. 0.014 sqrt(9.81 * 1) = 4.4 cm/s for a 1 m body.
 inline constexpr Real kRestSpeedFraction = Real(0.014);

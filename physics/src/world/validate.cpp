@@ -27,16 +27,48 @@ Status check_body(const RigidBody& body) {
   return {};
 }
 
+namespace {
+
+Status check_surface(Real friction, Real restitution, Real rolling, Real torsional) {
+  if (!std::isfinite(friction) || friction < 0)
+    return {StatusCode::OutOfRange, "friction must be finite and not negative"};
+  if (!std::isfinite(restitution) || restitution < 0 || restitution > 1)
+    return {StatusCode::OutOfRange, "restitution must lie in 0..1"};
+  if (!std::isfinite(rolling) || rolling < 0)
+    return {StatusCode::OutOfRange, "rolling friction must be finite and not negative [m]"};
+  if (!std::isfinite(torsional) || torsional < 0)
+    return {StatusCode::OutOfRange, "torsional friction must be finite and not negative [m]"};
+  return {};
+}
+
+}  // namespace
+
+Status check_surface_velocity(const SurfaceVelocity& velocity) {
+  if (!all_finite(velocity.linear) || !all_finite(velocity.angular))
+    return {StatusCode::NotFinite, "surface velocity is not finite [m/s], [rad/s]"};
+  return {};
+}
+
+Status check_material_pair(const MaterialPair& values) {
+  return check_surface(values.friction.value_or(Real(0)), values.restitution.value_or(Real(0)),
+                       values.rolling_friction.value_or(Real(0)),
+                       values.torsional_friction.value_or(Real(0)));
+}
+
 Status check_collider(const Collider& collider, MotionType type) {
   if (const Status status = check_shape(collider.shape); !status) return status;
   if (!all_finite(collider.pose.position))
     return {StatusCode::NotFinite, "collider position is not finite [m]"};
   if (const Status status = check_orientation(collider.pose.orientation); !status) return status;
   const Material& m = collider.material;
-  if (!std::isfinite(m.friction) || m.friction < 0)
-    return {StatusCode::OutOfRange, "friction must be finite and not negative"};
-  if (!std::isfinite(m.restitution) || m.restitution < 0 || m.restitution > 1)
-    return {StatusCode::OutOfRange, "restitution must lie in 0..1"};
+  if (const Status status =
+          check_surface(m.friction, m.restitution, m.rolling_friction, m.torsional_friction);
+      !status)
+    return status;
+  if (const Status status = check_surface_velocity(collider.surface_velocity); !status)
+    return status;
+  if (!all_finite(collider.one_way))
+    return {StatusCode::NotFinite, "the direction of a one-way collider is not finite"};
   if (!std::isfinite(collider.density) || collider.density < 0)
     return {StatusCode::OutOfRange, "density must be finite and not negative [kg/m^3]"};
   if (std::holds_alternative<HalfSpace>(collider.shape) && type != MotionType::Static)

@@ -39,6 +39,8 @@ inline Status check_pose(const Pose& pose) {
 }
 
 Status check_body(const RigidBody& body);
+Status check_surface_velocity(const SurfaceVelocity& velocity);
+Status check_material_pair(const MaterialPair& values);
 Status check_collider(const Collider& collider, MotionType type);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -11,11 +11,6 @@ namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
 
-void count_collider(WorldState& world, const Collider& component, std::uint32_t change) {
-  if (component.is_sensor) world.counts.sensors += change;
-  if (component.material.restitution > 0) world.counts.restitution += change;
-}
-
 void remove_collider(WorldState& world, std::uint32_t slot) {
   ColliderInfo& collider = world.colliders.info[slot];
   BodyInfo& owner = world.bodies.info[collider.body];
@@ -28,7 +23,8 @@ void remove_collider(WorldState& world, std::uint32_t slot) {
   std::erase(owner.colliders, slot);
   std::erase_if(owner.collider_ids, [slot](ColliderId id) { return id.index == slot; });
   std::erase(world.query_list, slot);
-  count_collider(world, collider.component, static_cast<std::uint32_t>(-1));
+  count_collider(world.counts, collider.component, static_cast<std::uint32_t>(-1));
+  world.contact_data.excluded_colliders.forget(slot);
   world.colliders.destroy(slot);
 }
 
@@ -99,6 +95,7 @@ Status PhysicsWorld::destroy_body(BodyId body) {
   if (!world.joints.empty()) detail::remove_joints_of(world, slot);
   const std::vector<std::uint32_t> colliders = world.bodies.info[slot].colliders;
   for (const std::uint32_t collider : colliders) detail::remove_collider(world, collider);
+  world.contact_data.excluded_bodies.forget(slot);
   std::erase(world.moved, slot);
   world.bodies.destroy(slot);
   return {};
@@ -126,11 +123,12 @@ Created<ColliderId> PhysicsWorld::create_collider(BodyId body, const Collider& c
   info.body = body.index;
   info.component = collider;
   info.component.pose.orientation.normalize();
+  info.component.one_way.stableNormalize();
   info.shape = detail::make_collision_shape(collider.shape);
   info.is_static = owner.type == MotionType::Static;
   owner.colliders.push_back(slot);
   owner.collider_ids.push_back(world.colliders.id(slot));
-  detail::count_collider(world, collider, 1);
+  detail::count_collider(world.counts, info.component, 1);
   // A body that was made asleep sleeps on while it is being built; one that lies on something
   // wakes.
   if (owner.island != detail::kNone &&

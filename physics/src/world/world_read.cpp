@@ -29,28 +29,39 @@ BodyState state_of(const WorldState& world, std::uint32_t slot) {
   return state;
 }
 
-void append_contacts(const WorldState& world, const Pair& pair, const std::vector<Contact>& store,
-                     std::vector<ContactState>& out) {
-  if (pair.contact_count == 0 || !pair.was_touching) return;
+void write_contact(const WorldState& world, const Pair& pair, const Contact& from,
+                   ContactState& out) {
   const std::uint32_t reference =
       world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
   const PosVec origin = world.bodies.pose[reference].x;
-  for (const Contact& from : contacts_of(pair, store)) {
-    ContactState& contact = out.emplace_back();
-    contact.a = world.colliders.id(pair.collider_a());
-    contact.b = world.colliders.id(pair.collider_b());
-    contact.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
-    contact.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
-    contact.normal = to_public(from.manifold.normal);
-    contact.point_count = from.manifold.count;
-    for (int i = 0; i < from.manifold.count; ++i) {
-      ContactState::Point& point = contact.points[i];
-      point.position = to_public_position(origin + cast<PosReal>(from.manifold.points[i].position));
-      point.separation = from.manifold.points[i].separation;
-      point.normal_impulse = from.step_normal_impulse[i];
-      point.friction_impulse = to_public(from.step_friction_impulse[i]);
-    }
+  out = {};
+  out.a = world.colliders.id(pair.collider_a());
+  out.b = world.colliders.id(pair.collider_b());
+  out.body_a = {pair.body_a, world.bodies.info[pair.body_a].generation};
+  out.body_b = {pair.body_b, world.bodies.info[pair.body_b].generation};
+  out.began = pair.began == static_cast<std::uint32_t>(world.step_count);
+  out.normal = to_public(from.manifold.normal);
+  out.point_count = from.manifold.count;
+  for (int i = 0; i < from.manifold.count; ++i) {
+    ContactState::Point& point = out.points[i];
+    point.position = to_public_position(origin + cast<PosReal>(from.manifold.points[i].position));
+    point.separation = from.manifold.points[i].separation;
+    point.normal_impulse = from.step_normal_impulse[i];
+    point.friction_impulse = to_public(from.step_friction_impulse[i]);
   }
+}
+
+// The next contact of a list of pairs from the cursor on; false at its end.
+template <class Pairs>
+bool next_in(const WorldState& world, const Pairs& pairs, const std::vector<Contact>& store,
+             ContactCursor& at, ContactState& out) {
+  for (; at.pair < pairs.size(); ++at.pair, at.contact = 0) {
+    const Pair& pair = pairs[at.pair];
+    if (!pair.was_touching || at.contact >= pair.contact_count) continue;
+    write_contact(world, pair, store[pair.first_contact + at.contact++], out);
+    return true;
+  }
+  return false;
 }
 
 ContactPoint* write_points(const WorldState& world, const Pair& pair,
@@ -162,7 +173,7 @@ std::uint64_t PhysicsWorld::step_count() const { return state_->step_count; }
 const StepReport& PhysicsWorld::last_report() const { return state_->report; }
 Events PhysicsWorld::events() const {
   const detail::EventLists& lists = state_->published;
-  return {lists.contacts, lists.hits,        lists.sensors,
+  return {lists.contacts, lists.hits,        lists.sensors,      state_->overlaps,
           lists.sleep,    lists.quarantined, lists.broken_joints};
 }
 
@@ -178,11 +189,19 @@ void PhysicsWorld::copy_moved_body_states(std::vector<BodyState>& out) const {
 }
 void PhysicsWorld::copy_contacts(std::vector<ContactState>& out) const {
   out.clear();
-  for (const detail::Pair& pair : state_->pairs)
-    detail::append_contacts(*state_, pair, state_->contacts, out);
-  for (const detail::SleepingIsland& island : state_->islands)
-    for (const detail::Pair& pair : island.pairs)
-      detail::append_contacts(*state_, pair, island.contacts, out);
+  each_contact([&out](const ContactState& contact) { out.push_back(contact); });
+}
+
+bool PhysicsWorld::next_contact(ContactCursor& at, ContactState& out) const {
+  if (at.island == 0) {
+    if (detail::next_in(*state_, state_->pairs, state_->contacts, at, out)) return true;
+    at = {1, 0, 0};
+  }
+  for (; at.island <= state_->islands.size(); at = {at.island + 1, 0, 0}) {
+    const detail::SleepingIsland& island = state_->islands[at.island - 1];
+    if (detail::next_in(*state_, island.pairs, island.contacts, at, out)) return true;
+  }
+  return false;
 }
 
 void PhysicsWorld::copy_contact_points(std::vector<ContactPoint>& out) const {

@@ -8,8 +8,11 @@
 #include "math/eigen_bridge.h"
 #include "plumb/world.h"
 #include "solver/contact_row.h"
+#include "solver/surface_drive.h"
+#include "solver/turning_row.h"
 #include "world/body_store.h"
 #include "world/collider_store.h"
+#include "world/contact_data.h"
 #include "world/joint_store.h"
 #include "world/pair_store.h"
 
@@ -40,6 +43,13 @@ struct EventLists {
   }
 };
 
+// A sensor event as a change of the list of overlaps; the last of a pair counts.
+struct OverlapChange {
+  SensorOverlap overlap;
+  std::uint32_t order = 0;
+  bool inside = false;
+};
+
 // Which work the running step has, decided once at its start from a few counts.
 struct StepFlags {
   bool gravity = false;
@@ -52,6 +62,9 @@ struct StepFlags {
 struct SceneCounts {
   std::uint32_t sensors = 0;
   std::uint32_t restitution = 0;  // colliders with restitution > 0
+  std::uint32_t turning = 0;      // ... with rolling or torsional friction
+  std::uint32_t driven = 0;       // ... whose surface runs
+  std::uint32_t one_way = 0;      // ... that are solid from one side only
 };
 
 // What the narrowphase found in one pair, before anything is changed.
@@ -59,6 +72,7 @@ struct PairFindings {
   std::uint32_t first = 0, count = 0;  // contacts, within its chunk's list
   bool gone = false;                   // the bounds are apart, or all sleeps
   bool overlaps = false;               // sensors: whether they see the other
+  Passage passage = Passage::Apart;
 };
 
 // One colour: rows among which no two share a dynamic body.
@@ -75,6 +89,8 @@ struct WorldState {
   PairStore pairs;
   std::vector<Contact> contacts;  // of the awake pairs, in their order
   JointStore joints;
+  ContactData contact_data;
+  std::vector<SensorOverlap> overlaps;  // after the last step, ascending
   std::vector<SleepingIsland> islands;
   std::vector<std::uint32_t> free_islands;
   SceneCounts counts;
@@ -97,10 +113,12 @@ struct WorldState {
   std::vector<ColorRange> colors;
   std::vector<ContactRow<Real>> rows;  // in colour order
   std::vector<std::uint32_t> bouncing_rows;
-  std::vector<BodyDelta> delta;           // per dense index
-  std::vector<SubstepBody> substep;       // per dense index
-  std::vector<std::uint64_t> color_mask;  // per dense index
-  std::vector<std::uint32_t> parents;     // union-find, per slot
+  std::vector<SpinningRow> spinning_rows;
+  std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
+  std::vector<BodyDelta> delta;                // per dense index
+  std::vector<SubstepBody> substep;            // per dense index
+  std::vector<std::uint64_t> color_mask;       // per dense index
+  std::vector<std::uint32_t> parents;          // union-find, per slot
   std::vector<std::uint64_t> new_keys;
   std::vector<std::vector<std::uint64_t>> new_keys_by_chunk;
   std::vector<Pair> new_pairs;
@@ -114,6 +132,8 @@ struct WorldState {
 
   // Events are gathered from the end of one step to the end of the next, then published together.
   EventLists gathering, published;
+  std::vector<OverlapChange> overlap_changes;
+  std::vector<SensorOverlap> new_overlaps;
   std::vector<std::uint32_t> moved;  // bodies moved by the last step, ascending slots
 };
 
@@ -156,10 +176,18 @@ void finalize_bodies(WorldState& world);
 void note_pair_end(WorldState& world, const Pair& pair);  // nothing if it did not touch
 void note_contact_events(WorldState& world);
 void note_hits(WorldState& world);
+SensorOverlap overlap_of(const WorldState& world, const Pair& pair);  // of a sensor
+void update_overlaps(WorldState& world);  // by the gathered events (sensor_overlaps.cpp)
 
-// --- pairs ---
+// --- pairs (world/pair_rules.cpp) ---
 Pair make_pair(const WorldState& world, std::uint64_t key);
+// The same pair by today's data, with what it remembers.
+Pair remake_pair(const WorldState& world, const Pair& pair);
 bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t collider_b);
+// Adds `change` to the counts that the collider belongs to.
+void count_collider(SceneCounts& counts, const Collider& collider, std::uint32_t change);
+
+// --- boxes (world/broadphase.cpp) ---
 void update_proxy(WorldState& world, std::uint32_t collider, bool force);
 // The box of all places that a collider may take in the next step; returns its body's path [m].
 PosVec update_reach(WorldState& world, std::uint32_t collider);
