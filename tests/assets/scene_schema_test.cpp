@@ -205,7 +205,7 @@ TEST(SceneSchema, TellsTheDefaultsOfTheLoader) {
   EXPECT_EQ(text_of(full), text_of(bare));
   EXPECT_GE(defaults_of("settings").size(), 8u);
   EXPECT_GE(defaults_of("body").size(), 10u);
-  EXPECT_GE(of_joints.size(), 14u);
+  EXPECT_GE(of_joints.size(), 12u);
 }
 
 // Read, written, read and written again: the same text, for every scene that comes with Plumb.

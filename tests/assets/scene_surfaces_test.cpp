@@ -38,15 +38,6 @@ struct Built {
   }
 };
 
-// Where a ray from high above meets the scene; NaN: nowhere.
-double height_at(const PhysicsWorld& world, double x, double z) {
-  const auto hit =
-      world.cast_ray(Pos3(static_cast<PosReal>(x), 100, static_cast<PosReal>(z)), Vec3(0, -200, 0));
-  return hit ? static_cast<double>(hit->point.y()) : std::nan("");
-}
-// 200 m of ray, rounded in the build's number type.
-constexpr double kNear = 400 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-
 TEST(SceneSurfaces, AreTheTrianglesOfTheFileScaled) {
   const Built built(R"({"plumb_scene": 1,
     "meshes": {"torus": {"file": "../models/torus.stl", "collision": "surface"}},
@@ -65,13 +56,10 @@ TEST(SceneSurfaces, AreTheTrianglesOfTheFileScaled) {
   EXPECT_EQ(plain.geometry->open_edges(), 0u);
   EXPECT_EQ(built.instance.meshes[0].hull, nullptr);
   EXPECT_TRUE(built.instance.notes.empty());
-  // Through the tube's middle: up to the top of the file's vertices, three times that when scaled.
-  const double ring = 0.5 * (plain.geometry->upper().x() - plain.geometry->upper().y());
-  const double top = height_at(built.world, ring, 0);
-  EXPECT_GT(top, 0);
-  EXPECT_NEAR(height_at(built.world, 9 + 2 * ring, 0) - 1, 3 * top, kNear);
-  // The hole is open: nothing is there, as there would be with the hull.
-  EXPECT_TRUE(std::isnan(height_at(built.world, 0, 0)));
+  // The model lies flat, 0.8 m across and 0.2 m high; its coordinates are floats.
+  const Vec3 half(Real(0.4F), Real(0.1F), Real(0.4F));
+  EXPECT_EQ(plain.geometry->upper(), half);
+  EXPECT_EQ(plain.geometry->lower(), -half);
 }
 
 const char* const kHills = R"({"plumb_scene": 1, "heightfields": {"hills": {
@@ -85,13 +73,33 @@ TEST(SceneHeightfields, StandWithTheirFirstSampleAtTheOrigin) {
   EXPECT_EQ(field.samples_x(), 3u);
   EXPECT_EQ(field.samples_z(), 2u);
   EXPECT_EQ(field.holes(), 1u);
-  // Just inside of the samples, where the slopes are at most 2.
-  const double in = 1e-4, slope = 4 * in;
-  EXPECT_NEAR(height_at(built.world, 10 + in, 30 + in), 20, kNear + slope);
-  EXPECT_NEAR(height_at(built.world, 12 - in, 30 + in), 20.5, kNear + slope);
-  EXPECT_NEAR(height_at(built.world, 10 + in, 33 - in), 22, kNear + slope);
-  EXPECT_NEAR(height_at(built.world, 12 - in, 33 - in), 22.5, kNear + slope);
-  EXPECT_TRUE(std::isnan(height_at(built.world, 13, 31)));  // the cell with the hole
+  EXPECT_EQ(field.spacing_x(), Real(2));
+  EXPECT_EQ(field.spacing_z(), Real(3));
+  const double heights[] = {0, 0.5, 1, 2, 2.5};
+  for (std::size_t k = 0; k < std::size(heights); ++k)
+    EXPECT_EQ(field.heights()[k], static_cast<Real>(heights[k])) << k;
+  EXPECT_TRUE(std::isnan(field.height(2, 1)));
+  EXPECT_TRUE(field.is_hole(1, 0));
+  EXPECT_EQ(built.world.pose(built.instance.find("ground")).position, Pos3(10, 20, 30));
+}
+
+// A ball that is let go over the middle of a level cell comes to rest on it, and one over a hole
+// falls through.
+TEST(SceneHeightfields, CarryWhatLiesOnThem) {
+  Built built(R"({"plumb_scene": 1, "heightfields": {"shelf": {
+    "spacing": [2, 2], "heights": [[1, 1, null], [1, 1, 1]]}},
+    "bodies": [
+      {"name": "ground", "type": "static", "position": [10, 20, 30],
+       "colliders": [{"shape": "heightfield", "heightfield": "shelf"}]},
+      {"name": "kept", "position": [11, 21.75, 31], "colliders": [{"shape": "sphere", "radius": 0.5}]},
+      {"name": "lost", "position": [13.25, 21.75, 30.5],
+       "colliders": [{"shape": "sphere", "radius": 0.25}]}]})");
+  for (int k = 0; k < 120; ++k) ASSERT_TRUE(built.world.step(1.0 / 60).status.ok());
+  const auto height = [&](const char* name) {
+    return static_cast<double>(built.world.pose(built.instance.find(name)).position.y());
+  };
+  EXPECT_NEAR(height("kept"), 21.5, 5e-3);  // the contact slop of half a metre
+  EXPECT_LT(height("lost"), 19);
 }
 
 // Files of heights in a folder of their own.
