@@ -36,7 +36,7 @@ std::vector<Vector2d> funicular(const std::vector<double>& weights, double link,
 }
 
 struct Chain {
-  PlanarPair pair;
+  JointedPair pair;
   std::vector<Body> links;
   std::vector<double> weights;
   double link, span;
@@ -136,8 +136,8 @@ TEST(Box2dSensor, TellsTheStepsOfEnteringAndLeaving) {
     if (inside && entered_theirs == 0) entered_theirs = step;
     if (!inside && entered_theirs != 0 && left_theirs == 0) left_theirs = step;
     for (const SensorEvent& event : pair.world().events().sensors) {
-      if (event.begin && entered_ours == 0) entered_ours = step;
-      if (!event.begin && left_ours == 0) left_ours = step;
+      if (event.kind == SensorEvent::Kind::Enter && entered_ours == 0) entered_ours = step;
+      if (event.kind == SensorEvent::Kind::Exit && left_ours == 0) left_ours = step;
     }
   }
   // Their outlines meet after 0.4167 s and part after 0.9167 s: in the steps 25 and 55, at whose

@@ -12,7 +12,7 @@ using namespace box2d_comparison;
 
 // w = T t / I until the target is reached, then the target.
 TEST(Box2dHingeMotor, TurnsAWheelUpByItsTorque) {
-  PlanarPair pair;
+  JointedPair pair;
   const double radius = 0.5, target = 6, torque = 200;
   const Body wheel = pair.add_disc(radius, {.y = 2});
   const double moment = 1000 * kPi * std::pow(radius, 4) / 2;
@@ -33,7 +33,7 @@ TEST(Box2dHingeMotor, HoldsALoadThatItCanCarry) {
   const double load = mass * kGravity * half;
   const double moment = mass * ((half * half + width * width) / 3 + half * half);
   for (const double share : {1.2, 0.8}) {
-    PlanarPair pair;
+    JointedPair pair;
     const Body arm = pair.add_box(half, width, {.x = half});
     hinge(pair, pair.ground(), arm, {0, 0}, std::pair(0.0, share * load));
     const double t = 0.25;
@@ -69,7 +69,7 @@ PairedSlider slider(PlanarPair& pair, const Body& b, const Vector2d& p, const Ve
 // Lifted by F - m g until it runs at the motor's speed, then to the end of the slide, where it
 // stays.
 TEST(Box2dSlider, LiftsByItsMotorUpToItsLimit) {
-  PlanarPair pair;
+  JointedPair pair;
   const Body box = pair.add_box(0.5, 0.5, {.y = 1});
   const double mass = 1000, speed = 1.5, upper = 2;
   const double force = 1.5 * mass * kGravity;
@@ -90,7 +90,7 @@ TEST(Box2dSlider, LiftsByItsMotorUpToItsLimit) {
 
 // Down a slide of 30 degrees without friction: g sin 30 t, and a stop at the end.
 TEST(Box2dSlider, RunsDownASlopeToItsEnd) {
-  PlanarPair pair;
+  JointedPair pair;
   const Vector2d down(std::cos(kPi / 6), -std::sin(kPi / 6));
   const Body box = pair.add_box(0.25, 0.25, {});
   slider(pair, box, {0, 0}, down, 0, 3, 0, 0);
@@ -119,7 +119,7 @@ b2DistanceJoint* their_distance(PlanarPair& pair, const Body& b, const Vector2d&
 
 // A disc on a rod that ends at its middle does not turn: a mathematical pendulum.
 TEST(Box2dRod, IsAMathematicalPendulum) {
-  PlanarPair pair;
+  JointedPair pair;
   const double length = 2, amplitude = kPi / 4;
   const Vector2d start = length * Vector2d(std::sin(amplitude), -std::cos(amplitude));
   const Body bob = pair.add_disc(0.2, {.x = start.x(), .y = start.y()});
@@ -136,7 +136,7 @@ TEST(Box2dRod, IsAMathematicalPendulum) {
 // Falls freely until the rope is taut, keeps only what is across the rope, and swings down:
 // v_bottom^2 = (v x / l)^2 + 2 g (l - depth).
 TEST(Box2dRope, TakesWhatPullsAtItAndNothingElse) {
-  PlanarPair pair;
+  JointedPair pair;
   const double length = 2, x = 1.2, depth = std::sqrt(length * length - x * x);
   const Body bob = pair.add_disc(0.2, {.x = x});
   their_distance(pair, bob, {0, 0}, {x, 0}, 0, length, 0);
@@ -162,7 +162,7 @@ TEST(Box2dRope, TakesWhatPullsAtItAndNothingElse) {
 // An undamped spring: T = 2 pi sqrt(m / k), and the amplitude that it was given. Box2D's springs
 // are implicit Euler, which damps.
 TEST(Box2dSpring, SwingsUndamped) {
-  PlanarPair pair(0);
+  JointedPair pair(0);
   const double mass = 1000 * kPi * 0.04, stiffness = 5000, rest = 2, pulled = 0.3;
   const Body bob = pair.add_disc(0.2, {.y = -rest - pulled});
   b2DistanceJoint* spring =
@@ -190,7 +190,7 @@ TEST(Box2dSpring, SwingsUndamped) {
 
 // A wheel held by a spring along the upright axis, free to turn, under a weight: it sags m g / k.
 TEST(Box2dWheel, SagsByItsWeightOnItsSpringAndTurns) {
-  PlanarPair pair;
+  JointedPair pair;
   const double mass = 1000 * kPi * 0.09, stiffness = 20000, damping = 2000, spin = 4;
   const Body wheel = pair.add_disc(0.3, {.spin = spin});
   b2WheelJointDef def;
@@ -217,7 +217,7 @@ TEST(Box2dWheel, SagsByItsWeightOnItsSpringAndTurns) {
 
 // Atwood's machine: a = g (m - M) / (m + M).
 TEST(Box2dPulley, AcceleratesAsAtwoodSays) {
-  PlanarPair pair;
+  JointedPair pair;
   const Body light = pair.add_box(0.25, 0.25, {.x = -1}, {}, 1000);
   const Body heavy = pair.add_box(0.25, 0.25, {.x = 1}, {}, 2000);
   const Vector2d over_a(-1, 3), over_b(1, 3), at_a(-1, 0), at_b(1, 0);

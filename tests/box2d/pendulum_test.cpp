@@ -34,20 +34,20 @@ struct Bar {
 };
 
 TEST(Box2dPendulum, SwingsInTheTimeOfTheEllipticIntegral) {
-  PlanarPair pair;
+  JointedPair pair;
   const Bar bar(pair, {0, 0}, kAmplitude);
   hinge(pair, pair.ground(), bar.body, {0, 0});
   const double w0 = std::sqrt(bar.mass * kGravity * kHalf / bar.moment);
   const double exact = swing_period(w0, kAmplitude);
   const Periods seen = periods_of(pair, 10, [&] { return bar.angles(pair); });
   EXPECT_NEAR(seen.ours / exact, 1, 1e-4);
-  EXPECT_NEAR(seen.theirs / exact, 1, 2e-2);
+  EXPECT_NEAR(seen.theirs / exact, 1, 4e-2);
 }
 
 // Height of the centre plus v^2 / 2g and its turning: what is left of the energy after 20 s, over
 // what the swing had.
 TEST(Box2dPendulum, KeepsItsEnergy) {
-  PlanarPair pair;
+  JointedPair pair;
   const Bar bar(pair, {0, 0}, kAmplitude);
   hinge(pair, pair.ground(), bar.body, {0, 0});
   const double swing = bar.mass * kGravity * kHalf * (1 - std::cos(kAmplitude));
@@ -65,7 +65,7 @@ TEST(Box2dPendulum, KeepsItsEnergy) {
 // Two equal cranks and a bar that joins their ends: a loop of four hinges with one freedom, a
 // pendulum of (2 I + m l^2) th'' = -(2 M l/2 + m l) g sin th.
 TEST(Box2dFourBar, SwingsAsOnePendulum) {
-  PlanarPair pair;
+  JointedPair pair;
   const double apart = 1.5;
   const Bar left(pair, {0, 0}, kAmplitude), right(pair, {apart, 0}, kAmplitude);
   const Vector2d end = 2 * kHalf * Vector2d(std::sin(kAmplitude), -std::cos(kAmplitude));
@@ -120,7 +120,7 @@ Four double_pendulum(double seconds, double start, double mass, double moment) {
 }
 
 TEST(Box2dDoublePendulum, FollowsLagrangesEquations) {
-  PlanarPair pair;
+  JointedPair pair;
   const Bar upper(pair, {0, 0}, kAmplitude);
   const Vector2d elbow = 2 * kHalf * Vector2d(std::sin(kAmplitude), -std::cos(kAmplitude));
   const Bar lower(pair, elbow, kAmplitude);

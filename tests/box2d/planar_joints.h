@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <tuple>
 #include <utility>
 
 #include "box2d/planar_pair.h"
@@ -12,6 +13,12 @@ namespace box2d_comparison {
 
 using Eigen::Vector2d;
 using Body = PlanarPair::Body;
+
+// Bodies that joints keep in the plane: these need no locks.
+class JointedPair : public PlanarPair {
+ public:
+  explicit JointedPair(double gravity = kGravity) : PlanarPair(gravity) { lock_to_plane(false); }
+};
 
 inline b2Vec2 b2(const Vector2d& p) { return {f(p.x()), f(p.y())}; }
 

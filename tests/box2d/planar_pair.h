@@ -91,6 +91,9 @@ class PlanarPair {
     return body;
   }
 
+  // Of the bodies added from now on: whether locks keep them in the plane.
+  void lock_to_plane(bool locked) { locked_ = locked; }
+
   void step() {
     const int velocity_iterations = 8, position_iterations = 3;  // Box2D's own advice
     theirs_.Step(f(kDt), velocity_iterations, position_iterations);
@@ -155,16 +158,17 @@ class PlanarPair {
     body->CreateFixture(&fixture);
     return body;
   }
-  static RigidBody spec_of(const Start& start) {
+  [[nodiscard]] RigidBody spec_of(const Start& start) const {
     RigidBody spec = moving(at({start.x, start.y, 0}, turn(start.angle, Eigen::Vector3d::UnitZ())),
                             vec(start.vx, start.vy, 0), vec(0, 0, start.spin));
-    spec.locks = MotionLocks::planar();
+    if (locked_) spec.locks = MotionLocks::planar();
     spec.linear_damping = spec.angular_damping = real(start.damping);
     return spec;
   }
 
   b2World theirs_;
   b2Body* their_ground_ = nullptr;
+  bool locked_ = true;
   PhysicsWorld ours_;
 };
 
