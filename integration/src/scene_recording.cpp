@@ -64,11 +64,11 @@ void show_meshes(replay::Recorder& recorder, const SceneInstance& instance) {
 
 void show_labels(replay::Recorder& recorder, const assets::Scene& scene,
                  const SceneInstance& instance, const PhysicsWorld& world) {
-  const auto is_surface = [&](const assets::SceneInstanceBody& body) {
+  const auto is_special = [&](const assets::SceneInstanceBody& body) {
     return std::any_of(body.colliders.begin(), body.colliders.end(), [&](ColliderId id) {
-      const Shape shape = world.collider(id).shape;
-      return std::holds_alternative<SurfaceMesh>(shape) ||
-             std::holds_alternative<Heightfield>(shape);
+      const Collider collider = world.collider(id);
+      return collider.is_sensor || std::holds_alternative<SurfaceMesh>(collider.shape) ||
+             std::holds_alternative<Heightfield>(collider.shape);
     });
   };
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
@@ -77,7 +77,7 @@ void show_labels(replay::Recorder& recorder, const assets::Scene& scene,
     const auto found = instance.index_of.find(source.name);
     if (found == instance.index_of.end()) continue;
     const assets::SceneInstanceBody& body = instance.bodies[found->second];
-    const bool is_seen = source.body.type != MotionType::Static || is_surface(body);
+    const bool is_seen = source.body.type != MotionType::Static || is_special(body);
     if (is_seen && world.joints_of(body.id).empty()) recorder.label(body.id, source.name);
   }
   std::set<std::string, std::less<>> coupled;

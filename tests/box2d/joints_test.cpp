@@ -1,6 +1,7 @@
 // Proves, against Box2D 2.4.1, that motors, limits, rods, ropes, springs and pulleys do what their
 // closed forms say: the speed that a torque gives, the force that lifts, the moment at which a rope
-// is taut, the sag of a suspension.
+// is taut, the sag of a suspension. Bars are a few times what was measured, which stands beside
+// them where it is more than round-off.
 #include <gtest/gtest.h>
 
 #include "box2d/planar_joints.h"
@@ -38,10 +39,10 @@ TEST(Box2dHingeMotor, HoldsALoadThatItCanCarry) {
     hinge(pair, pair.ground(), arm, {0, 0}, std::pair(0.0, share * load));
     const double t = 0.25;
     pair.run_both(t);
-    // sin of the small angle is left out: 0.02 of the load at 0.1 rad.
+    // The arm sinks by 0.09 rad, which shortens its lever: 0.4 % of 0.734 rad/s in both engines.
     const double exact = share > 1 ? 0 : -(1 - share) * load / moment * t;
-    EXPECT_NEAR(pair.ours(arm).spin, exact, 1e-2 * std::abs(exact) + 1e-3) << share;
-    EXPECT_NEAR(PlanarPair::theirs(arm).spin, exact, 5e-2 * std::abs(exact) + 1e-3) << share;
+    EXPECT_NEAR(pair.ours(arm).spin, exact, 1e-2 * std::abs(exact) + 1e-6) << share;
+    EXPECT_NEAR(PlanarPair::theirs(arm).spin, exact, 1e-2 * std::abs(exact) + 1e-6) << share;
   }
 }
 
@@ -77,14 +78,14 @@ TEST(Box2dSlider, LiftsByItsMotorUpToItsLimit) {
   const double a = 0.5 * kGravity, t_speed = speed / a, t = 0.8;
   pair.run_both(t);
   const double exact = 1 + speed * t_speed / 2 + speed * (t - t_speed);
-  EXPECT_NEAR(pair.ours(box).y, exact, 5e-3);
-  EXPECT_NEAR(pair.ours(box).vy, speed, 1e-3);
-  EXPECT_NEAR(PlanarPair::theirs(box).y, exact, 2e-2);
-  EXPECT_NEAR(PlanarPair::theirs(box).vy, speed, 1e-2);
+  EXPECT_NEAR(pair.ours(box).y, exact, 1e-4);  // measured 6e-6
+  EXPECT_NEAR(pair.ours(box).vy, speed, 1e-5);
+  EXPECT_NEAR(PlanarPair::theirs(box).y, exact, 2e-2);  // measured 1.2e-2: a h t / 2
+  EXPECT_NEAR(PlanarPair::theirs(box).vy, speed, 1e-5);
   pair.run_both(3);
-  EXPECT_NEAR(pair.ours(box).y, 1 + upper, 1e-3);
-  EXPECT_NEAR(pair.ours(box).vy, 0, 1e-3);
-  EXPECT_NEAR(PlanarPair::theirs(box).y, 1 + upper, 1e-2);
+  EXPECT_NEAR(pair.ours(box).y, 1 + upper, 1e-5);
+  EXPECT_NEAR(pair.ours(box).vy, 0, 1e-5);
+  EXPECT_NEAR(PlanarPair::theirs(box).y, 1 + upper, 1e-5);
   EXPECT_NEAR(pair.ours(box).x, 0, 1e-5);
 }
 
@@ -98,13 +99,13 @@ TEST(Box2dSlider, RunsDownASlopeToItsEnd) {
   pair.run_both(t);
   const double way = kGravity / 2 * t * t / 2;
   const Planar a = PlanarPair::theirs(box), b = pair.ours(box);
-  EXPECT_NEAR(Vector2d(b.x, b.y).dot(down), way, 1e-3);
+  EXPECT_NEAR(Vector2d(b.x, b.y).dot(down), way, 1e-5);
   // Box2D's semi-implicit step falls g h t / 2 too far.
-  EXPECT_NEAR(Vector2d(a.x, a.y).dot(down), way + kGravity / 2 * kDt * t / 2, 5e-3);
+  EXPECT_NEAR(Vector2d(a.x, a.y).dot(down), way + kGravity / 2 * kDt * t / 2, 1e-4);
   pair.run_both(2);
   const Planar c = PlanarPair::theirs(box), d = pair.ours(box);
-  EXPECT_NEAR(Vector2d(d.x, d.y).dot(down), 3, 1e-3);
-  EXPECT_NEAR(Vector2d(c.x, c.y).dot(down), 3, 1e-2);
+  EXPECT_NEAR(Vector2d(d.x, d.y).dot(down), 3, 1e-5);
+  EXPECT_NEAR(Vector2d(c.x, c.y).dot(down), 3, 1e-5);
 }
 
 b2DistanceJoint* their_distance(PlanarPair& pair, const Body& b, const Vector2d& from,
@@ -129,8 +130,8 @@ TEST(Box2dRod, IsAMathematicalPendulum) {
   const double exact = swing_period(std::sqrt(kGravity / length), amplitude);
   const Periods seen =
       periods_of(pair, 5, [&] { return std::pair(PlanarPair::theirs(bob).x, pair.ours(bob).x); });
-  EXPECT_NEAR(seen.ours / exact, 1, 1e-4);
-  EXPECT_NEAR(seen.theirs / exact, 1, 2e-2);
+  EXPECT_NEAR(seen.ours / exact, 1, 5e-5);    // measured 6e-6
+  EXPECT_NEAR(seen.theirs / exact, 1, 2e-2);  // measured -5.8e-3
 }
 
 // Falls freely until the rope is taut, keeps only what is across the rope, and swings down:
@@ -154,9 +155,9 @@ TEST(Box2dRope, TakesWhatPullsAtItAndNothingElse) {
     if (before_b.x > 0 && b.x <= 0 && fastest_ours == 0) fastest_ours = std::hypot(b.vx, b.vy);
     longest_ours = std::max(longest_ours, std::hypot(b.x, b.y));
   }
-  EXPECT_NEAR(fastest_ours, bottom, 0.02 * bottom);
-  EXPECT_NEAR(fastest_theirs, bottom, 0.1 * bottom);
-  EXPECT_LT(longest_ours, length + 1e-2);
+  EXPECT_NEAR(fastest_ours, bottom, 1e-3 * bottom);    // measured 2e-4
+  EXPECT_NEAR(fastest_theirs, bottom, 3e-2 * bottom);  // measured -1e-2
+  EXPECT_LT(longest_ours, length + 1e-3);
 }
 
 // An undamped spring: T = 2 pi sqrt(m / k), and the amplitude that it was given. Box2D's springs
@@ -182,10 +183,10 @@ TEST(Box2dSpring, SwingsUndamped) {
     largest_theirs = std::max(largest_theirs, std::abs(PlanarPair::theirs(bob).y + rest));
     largest_ours = std::max(largest_ours, std::abs(pair.ours(bob).y + rest));
   }
-  EXPECT_NEAR(seen.ours / exact, 1, 5e-3);
-  EXPECT_NEAR(largest_ours, pulled, 0.02 * pulled);
-  EXPECT_NEAR(seen.theirs / exact, 1, 5e-2);
-  EXPECT_LT(largest_theirs, 0.6 * pulled);
+  EXPECT_NEAR(seen.ours / exact, 1, 3e-4);           // measured 6e-5, (w h)^2 / 12
+  EXPECT_NEAR(largest_ours, pulled, 2e-3 * pulled);  // measured 3e-4
+  EXPECT_NEAR(seen.theirs / exact, 1, 2e-2);         // measured 4e-3
+  EXPECT_LT(largest_theirs, 0.1 * pulled);           // measured 0.03: the rest is damped away
 }
 
 // A wheel held by a spring along the upright axis, free to turn, under a weight: it sags m g / k.
@@ -208,11 +209,11 @@ TEST(Box2dWheel, SagsByItsWeightOnItsSpringAndTurns) {
   join(pair, pair.ground(), wheel, kind, {0, 0}, {0, 0}, R_WJ);
   pair.run_both(4);
   const double sag = mass * kGravity / stiffness;
-  EXPECT_NEAR(pair.ours(wheel).y, -sag, 1e-3);
-  EXPECT_NEAR(PlanarPair::theirs(wheel).y, -sag, 1e-3);
-  EXPECT_NEAR(pair.ours(wheel).x, 0, 1e-4);
-  EXPECT_NEAR(pair.ours(wheel).spin, spin, 1e-3);
-  EXPECT_NEAR(PlanarPair::theirs(wheel).spin, spin, 1e-3);
+  EXPECT_NEAR(pair.ours(wheel).y, -sag, 1e-5);
+  EXPECT_NEAR(PlanarPair::theirs(wheel).y, -sag, 1e-5);
+  EXPECT_NEAR(pair.ours(wheel).x, 0, 1e-5);
+  EXPECT_NEAR(pair.ours(wheel).spin, spin, 1e-4);
+  EXPECT_NEAR(PlanarPair::theirs(wheel).spin, spin, 1e-4);
 }
 
 // Atwood's machine: a = g (m - M) / (m + M).
@@ -230,10 +231,10 @@ TEST(Box2dPulley, AcceleratesAsAtwoodSays) {
   join(pair, light, heavy, kind, at_a, at_b, Eigen::Quaterniond::Identity());
   const double t = 1, way = kGravity / 3 * t * t / 2;
   pair.run_both(t);
-  EXPECT_NEAR(pair.ours(light).y, way, 5e-3);
-  EXPECT_NEAR(pair.ours(heavy).y, -way, 5e-3);
-  EXPECT_NEAR(pair.ours(heavy).vy, -kGravity / 3 * t, 5e-3);
-  EXPECT_NEAR(PlanarPair::theirs(heavy).y, -way - kGravity / 3 * kDt * t / 2, 1e-2);
+  EXPECT_NEAR(pair.ours(light).y, way, 1e-4);
+  EXPECT_NEAR(pair.ours(heavy).y, -way, 1e-4);
+  EXPECT_NEAR(pair.ours(heavy).vy, -kGravity / 3 * t, 1e-4);
+  EXPECT_NEAR(PlanarPair::theirs(heavy).y, -way - kGravity / 3 * kDt * t / 2, 1e-4);
 }
 
 }  // namespace

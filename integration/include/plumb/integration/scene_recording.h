@@ -12,8 +12,8 @@ namespace plumb::inline PLUMB_ABI::integration {
 // called before the recorder is attached to the world.
 void show_meshes(replay::Recorder& recorder, const assets::SceneInstance& instance);
 // Labels what the scene gives a name of its own: joints that no other couples, and bodies that no
-// joint holds. Copies of a repeat and static bodies without a surface have none. To be called at
-// the same time.
+// joint holds. Copies of a repeat and static bodies that are neither surface nor sensor have none.
+// To be called at the same time.
 void show_labels(replay::Recorder& recorder, const assets::Scene& scene,
                  const assets::SceneInstance& instance, const PhysicsWorld& world);
 
