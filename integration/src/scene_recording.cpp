@@ -2,7 +2,12 @@
 
 #if defined(PLUMB_WITH_REPLAY)
 
+#include <algorithm>
+#include <functional>
 #include <memory>
+#include <set>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace plumb::inline PLUMB_ABI::integration {
@@ -54,6 +59,33 @@ void show_meshes(replay::Recorder& recorder, const SceneInstance& instance) {
       last_visuals = &body.visuals;
     }
     recorder.show_as(body.id, last_mesh);
+  }
+}
+
+void show_labels(replay::Recorder& recorder, const assets::Scene& scene,
+                 const SceneInstance& instance, const PhysicsWorld& world) {
+  const auto is_special = [&](const assets::SceneInstanceBody& body) {
+    return std::any_of(body.colliders.begin(), body.colliders.end(), [&](ColliderId id) {
+      const Collider collider = world.collider(id);
+      return collider.is_sensor || std::holds_alternative<SurfaceMesh>(collider.shape) ||
+             std::holds_alternative<Heightfield>(collider.shape);
+    });
+  };
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const assets::SceneBody& source = scene.bodies[k];
+    if (source.repeat || source.name == "body " + std::to_string(k)) continue;
+    const auto found = instance.index_of.find(source.name);
+    if (found == instance.index_of.end()) continue;
+    const assets::SceneInstanceBody& body = instance.bodies[found->second];
+    const bool is_seen = source.body.type != MotionType::Static || is_special(body);
+    if (is_seen && world.joints_of(body.id).empty()) recorder.label(body.id, source.name);
+  }
+  std::set<std::string, std::less<>> coupled;
+  for (const assets::SceneJoint& joint : scene.joints) coupled.insert({joint.first, joint.second});
+  for (std::size_t k = 0; k < instance.joints.size(); ++k) {
+    const assets::SceneInstanceJoint& joint = instance.joints[k];
+    if (joint.name != "joint " + std::to_string(k) && !coupled.contains(joint.name))
+      recorder.label(joint.id, joint.name);
   }
 }
 

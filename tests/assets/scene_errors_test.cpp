@@ -2,35 +2,19 @@
 // a remedy; nothing that is wrong is passed over.
 #include <string>
 
+#include "assets/bad_scene.h"
 #include "gtest/gtest.h"
 #include "plumb/assets/scene.h"
 
 namespace {
 
 using plumb::assets::parse_scene;
-
-struct BadScene {
-  const char* name;  // of the test
-  const char* text;
-  int line;            // where the error has to point
-  const char* says;    // what is wrong
-  const char* remedy;  // what would be right
-};
-
-void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.name; }
+using plumb::bad_scenes::BadScene;
+using plumb::bad_scenes::expect_error_of;
 
 class SceneErrors : public testing::TestWithParam<BadScene> {};
 
-TEST_P(SceneErrors, NamesFileLineAndRemedy) {
-  const BadScene& bad = GetParam();
-  const auto scene = parse_scene(bad.text, "bad.json");
-  ASSERT_FALSE(scene.ok());
-  const std::string error = scene.error();
-  const std::string place = "bad.json:" + std::to_string(bad.line) + ": ";
-  EXPECT_EQ(error.rfind(place, 0), 0u) << error;
-  EXPECT_NE(error.find(bad.says), std::string::npos) << error;
-  EXPECT_NE(error.find(bad.remedy), std::string::npos) << error;
-}
+TEST_P(SceneErrors, NamesFileLineAndRemedy) { expect_error_of(GetParam()); }
 
 const BadScene kBadScenes[] = {
     {"EmptyFile", "", 1, "not JSON", "comma, quote or bracket"},

@@ -63,6 +63,50 @@ TEST(SceneSchema, KnowsTheWordsOfTheLoader) {
   std::set<std::string> shapes;
   for (const auto& shape : scene_keys::kShapeKeys) shapes.emplace(shape.shape);
   EXPECT_EQ(enum_of("collider", "shape"), shapes);
+  EXPECT_EQ(enum_of("child", "shape"), words(scene_keys::kChildShapes));
+  std::set<std::string> kinds;
+  for (const auto& joint : scene_keys::kJointKeys) kinds.emplace(joint.kind);
+  EXPECT_EQ(enum_of("joint", "kind"), kinds);
+  EXPECT_EQ(enum_of("joint", "mode"), words(scene_keys::kMotorModes));
+  EXPECT_EQ(enum_of("joint_motor", "mode"), words(scene_keys::kMotorModes));
+}
+
+// What the schema forbids a kind, or a shape, the loader refuses it, and nothing else.
+TEST(SceneSchema, ForbidsEachKindTheKeysOfTheOthers) {
+  const auto forbidden_by = [](const json& cases, const char* selector, const std::string& word) {
+    std::set<std::string> out;
+    for (const json& one : cases) {
+      const json& wanted = one.at("if").at("properties").at(selector);
+      const json& list =
+          wanted.contains("enum") ? wanted.at("enum") : json::array({wanted.at("const")});
+      if (std::find(list.begin(), list.end(), word) == list.end()) continue;
+      for (const auto& [key, allowed] : one.at("then").at("properties").items())
+        if (allowed == false) out.insert(key);
+    }
+    return out;
+  };
+  const json d = schema().at("$defs");
+  const auto expected = [](const auto& table, const auto& own) {
+    std::set<std::string> out;
+    for (const auto& other : table)
+      for (const std::string_view key : other.keys)
+        if (!key.empty()) out.emplace(key);
+    for (const std::string_view key : own.keys) out.erase(std::string(key));
+    return out;
+  };
+  for (const auto& shape : scene_keys::kShapeKeys) {
+    const std::string word(shape.shape);
+    EXPECT_EQ(forbidden_by(d.at("collider").at("allOf"), "shape", word),
+              expected(scene_keys::kShapeKeys, shape))
+        << word;
+  }
+  for (const auto& joint : scene_keys::kJointKeys) {
+    const std::string word(joint.kind);
+    std::set<std::string> keys = expected(scene_keys::kJointKeys, joint);
+    if (word == "gear" || word == "rack_pinion")
+      for (const std::string_view key : scene_keys::kPlacementKeys) keys.emplace(key);
+    EXPECT_EQ(forbidden_by(d.at("joint").at("allOf"), "kind", word), keys) << word;
+  }
 }
 
 // What the loader takes for a key that is absent is what the schema says: the scene with all the
@@ -84,11 +128,36 @@ TEST(SceneSchema, TellsTheDefaultsOfTheLoader) {
                {"step", json::object()},
                {"settings", json::object()},
                {"materials", {{"m", json::object()}}},
-               {"meshes", {{"k", {{"file", "k.obj"}, {"collision", "hull"}}}}}};
+               {"meshes", {{"k", {{"file", "k.obj"}, {"collision", "hull"}}}}},
+               {"heightfields", {{"f", {{"spacing", {1, 1}}, {"heights", {{0, 0}, {0, 0}}}}}}}};
   json body = {
       {"name", "b"}, {"type", "static"}, {"colliders", json::array({{{"shape", "half_space"}}})}};
   body["repeat"] = {{"count", {2, 1, 1}}};
-  bare["bodies"] = json::array({body});
+  const json moving = {
+      {"name", "c"},
+      {"colliders",
+       json::array({{{"shape", "compound"},
+                     {"children", json::array({{{"shape", "sphere"}, {"radius", 1}}})}}})}};
+  bare["bodies"] = json::array({body, moving});
+  const json axis = {
+      {"limit", {{"range", {-1, 1}}}}, {"motor", json::object()}, {"spring", json::object()}};
+  for (const auto& kind : scene_keys::kJointKeys) {
+    json joint = {{"name", kind.kind}, {"kind", kind.kind}, {"body_b", "c"}};
+    const std::string word(kind.kind);
+    if (word == "hinge" || word == "slider") joint.update(axis);
+    if (word == "spring") joint["stiffness"] = 1;
+    if (word == "cone_twist") joint["cone"] = 1;
+    if (word == "six_dof") joint["coordinates"] = {{"x", axis}};
+    if (word == "pulley") joint.update({{"over_a", {0, 1, 0}}, {"over_b", {0, 1, 0}}});
+    if (word == "gear" || word == "rack_pinion") {
+      joint.erase("body_b");
+      joint.update(word == "gear" ? json{{"first", "hinge"}, {"second", "hinge"}}
+                                  : json{{"pinion", "hinge"}, {"rack", "slider"}, {"radius", 1}});
+    } else {
+      joint["frame_a"] = joint["frame_b"] = json::object();
+    }
+    bare["joints"].push_back(joint);
+  }
 
   json full = bare;
   full["step"].update(defaults_of("step"));
@@ -99,11 +168,44 @@ TEST(SceneSchema, TellsTheDefaultsOfTheLoader) {
   full_body.update(body);
   full_body["repeat"].update(defaults_of("repeat"));
   full_body["colliders"][0].update(defaults_of("collider"));
-  full["bodies"] = json::array({full_body});
+  json full_moving = moving;
+  full_moving["colliders"][0]["children"][0].update(defaults_of("child"));
+  full["bodies"] = json::array({full_body, full_moving});
+  full["heightfields"]["f"].update(defaults_of("heightfield"));
+  const auto fill = [&](json& object, const char* name) {
+    json filled = defaults_of(name);
+    filled.update(object);
+    object = filled;
+  };
+  const auto fill_axis = [&](json& owner) {
+    fill(owner["limit"], "joint_limit");
+    fill(owner["motor"], "joint_motor");
+    fill(owner["spring"], "joint_spring");
+    owner["limit"]["softness"] = defaults_of("joint_softness");
+    owner["motor"]["softness"] = defaults_of("joint_softness");
+  };
+  const json of_joints = defaults_of("joint");
+  for (std::size_t k = 0; k < std::size(scene_keys::kJointKeys); ++k) {
+    json& joint = full["joints"][k];
+    const auto& own = scene_keys::kJointKeys[k].keys;
+    const bool couples = !joint.contains("body_b");
+    for (const auto& [key, value] : of_joints.items()) {
+      const bool is_own = std::find(own.begin(), own.end(), key) != own.end();
+      const bool is_common = key == "body_a" || key == "collide_connected";
+      if (is_own || (is_common && !couples)) joint[key] = value;
+    }
+    if (joint.contains("frame_a")) joint["frame_a"] = joint["frame_b"] = defaults_of("joint_frame");
+    joint["softness"] = defaults_of("joint_softness");
+    if (joint.contains("limit")) fill_axis(joint);
+    if (!joint.contains("coordinates")) continue;
+    fill(joint["coordinates"]["x"], "joint_axis");
+    fill_axis(joint["coordinates"]["x"]);
+  }
 
   EXPECT_EQ(text_of(full), text_of(bare));
   EXPECT_GE(defaults_of("settings").size(), 8u);
   EXPECT_GE(defaults_of("body").size(), 10u);
+  EXPECT_GE(of_joints.size(), 12u);
 }
 
 // Read, written, read and written again: the same text, for every scene that comes with Plumb.
@@ -120,7 +222,7 @@ TEST(SceneFiles, LoadAndSurviveWriting) {
     EXPECT_EQ(plumb::assets::scene_to_json(*again), once);
     ++count;
   }
-  EXPECT_GE(count, 6);
+  EXPECT_GE(count, 9);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct Surface {
 struct Start {
   double x = 0, y = 0, angle = 0;   // [m], [rad]
   double vx = 0, vy = 0, spin = 0;  // [m/s], [rad/s]
+  double damping = 0;               // [1/s] linear and angular
 };
 // What is compared.
 struct Planar {
@@ -90,6 +91,9 @@ class PlanarPair {
     return body;
   }
 
+  // Of the bodies added from now on: whether locks keep them in the plane.
+  void lock_to_plane(bool locked) { locked_ = locked; }
+
   void step() {
     const int velocity_iterations = 8, position_iterations = 3;  // Box2D's own advice
     theirs_.Step(f(kDt), velocity_iterations, position_iterations);
@@ -114,6 +118,15 @@ class PlanarPair {
     return {p.x(), p.y(), 2 * std::atan2(q.z(), q.w()), v.x(), v.y(), spin(ours_, body.ours).z()};
   }
   PhysicsWorld& world() { return ours_; }
+  b2World& their_world() { return theirs_; }
+  // A static body at the origin, for joints to hold on to; here that is the world itself.
+  Body ground() {
+    if (!their_ground_) {
+      b2BodyDef def;
+      their_ground_ = theirs_.CreateBody(&def);
+    }
+    return {their_ground_, BodyId{}};
+  }
 
  private:
   static WorldSettings settings(double gravity) {
@@ -137,20 +150,25 @@ class PlanarPair {
     def.angle = f(start.angle);
     def.linearVelocity = b2Vec2(f(start.vx), f(start.vy));
     def.angularVelocity = f(start.spin);
+    def.linearDamping = f(start.damping);
+    def.angularDamping = f(start.damping);
     b2FixtureDef fixture = fixture_of(surface, density);
     fixture.shape = &shape;
     b2Body* body = theirs_.CreateBody(&def);
     body->CreateFixture(&fixture);
     return body;
   }
-  static RigidBody spec_of(const Start& start) {
+  [[nodiscard]] RigidBody spec_of(const Start& start) const {
     RigidBody spec = moving(at({start.x, start.y, 0}, turn(start.angle, Eigen::Vector3d::UnitZ())),
                             vec(start.vx, start.vy, 0), vec(0, 0, start.spin));
-    spec.locks = MotionLocks::planar();
+    if (locked_) spec.locks = MotionLocks::planar();
+    spec.linear_damping = spec.angular_damping = real(start.damping);
     return spec;
   }
 
   b2World theirs_;
+  b2Body* their_ground_ = nullptr;
+  bool locked_ = true;
   PhysicsWorld ours_;
 };
 

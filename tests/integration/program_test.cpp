@@ -77,7 +77,7 @@ TEST_F(Program, HelpsAndTellsItsVersion) {
     EXPECT_TRUE(says(help, word)) << word << "\n" << help.output;
   const Outcome run_help = plumb("run --help");
   EXPECT_EQ(run_help.code, 0);
-  for (const char* word : {"SCENE", "--output", "--steps", "--dt", "--substeps", "--threads"})
+  for (const char* word : {"SCENE", "--output", "--steps", "--dt", "--substeps", "--threads", "--labels"})
     EXPECT_TRUE(says(run_help, word)) << word << "\n" << run_help.output;
   EXPECT_EQ(plumb("--version").code, 0);
   EXPECT_TRUE(says(plumb("--version"), "plumb 0.1.0 ("));
@@ -189,6 +189,19 @@ TEST_F(Program, RecordsAndVerifies) {
     const Outcome verify = plumb("replay verify " + recording + " --threads " + threads);
     EXPECT_EQ(verify.code, 0) << verify.output;
     EXPECT_TRUE(says(verify, "identical: 90 frames")) << verify.output;
+  }
+}
+
+// Joints that break, surfaces, heightfields, compounds and labels in the recording as well.
+TEST_F(Program, RecordsAndVerifiesEveryShapeAndJoint) {
+  for (const std::string scene : {"gallery", "terrain"}) {
+    const std::string recording = file(scene + ".rrd");
+    const Outcome run =
+        plumb("run -q --labels --steps 150 " + kScenes + scene + ".json -o " + recording);
+    ASSERT_EQ(run.code, 0) << run.output;
+    const Outcome verify = plumb("replay verify --threads 2 " + recording);
+    EXPECT_EQ(verify.code, 0) << verify.output;
+    EXPECT_TRUE(says(verify, "identical: 150 frames")) << verify.output;
   }
 }
 

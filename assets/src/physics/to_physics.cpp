@@ -28,4 +28,15 @@ Result<std::shared_ptr<const HullGeometry>> to_physics(const HullMesh& hull,
   return std::move(result.hull);
 }
 
+Result<std::shared_ptr<const TriangleMeshGeometry>> to_physics(const TriangleMesh& mesh) {
+  std::vector<Vec3> vertices;
+  std::vector<std::uint32_t> indices;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) vertices.push_back(vertex.cast<Real>());
+  for (const Triangle& triangle : mesh.triangles)
+    indices.insert(indices.end(), triangle.begin(), triangle.end());
+  TriangleMeshGeometry::Result result = TriangleMeshGeometry::create(vertices, indices);
+  if (!result.status.ok()) return Error{std::string("surface: ") + result.status.message};
+  return std::move(result.mesh);
+}
+
 }  // namespace plumb::inline PLUMB_ABI::assets

@@ -1,16 +1,19 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/scene.h"
+#include "scene/place_joint.h"
 #include "scene/prepared_mesh.h"
 #include "scene/repeat.h"
+#include "scene/shape_maker.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 namespace {
 
 using scene::MeshStore;
-using scene::PreparedMesh;
+using scene::ShapeMaker;
 
 std::string place_of(const Scene& scene, int line) {
   return line > 0 ? scene.source + ":" + std::to_string(line) : scene.source;
@@ -41,6 +44,7 @@ class Undo {
 // Mass of the body's colliders together. Bodies of plain shapes alone leave it to the world, which
 // counts the same way; a mesh has a mass of its own that its hull does not know.
 Result<std::optional<MassProperties>> mass_of_body(const Scene& scene, const SceneBody& body,
+                                                   const std::vector<Collider>& colliders,
                                                    MeshStore& meshes) {
   if (body.body.type != MotionType::Dynamic) return std::optional<MassProperties>{};
   bool needed = body.mass_scaled_to.has_value();
@@ -48,8 +52,9 @@ Result<std::optional<MassProperties>> mass_of_body(const Scene& scene, const Sce
   if (!needed || body.body.mass) return body.body.mass;
 
   std::optional<MassProperties> sum;
-  for (const SceneCollider& part : body.colliders) {
-    const Collider& collider = part.collider;
+  for (std::size_t k = 0; k < colliders.size(); ++k) {
+    const SceneCollider& part = body.colliders[k];
+    const Collider& collider = colliders[k];
     if (collider.is_sensor || part.density == 0.0) continue;
     MassProperties own;
     if (part.mesh.empty()) {
@@ -82,23 +87,22 @@ struct Template {
   std::vector<SceneVisual> visuals;
 };
 
-Result<Template> make_template(const Scene& scene, const SceneBody& body, MeshStore& meshes) {
+Result<Template> make_template(const Scene& scene, const SceneBody& body, MeshStore& meshes,
+                               ShapeMaker& shapes) {
   Template out;
   out.body = body.body;
   for (const SceneCollider& part : body.colliders) {
     Collider collider = part.collider;
     if (part.density) collider.density = *part.density;
-    if (!part.mesh.empty()) {
-      const Result<std::size_t> mesh = meshes.index_of(part.mesh);
-      if (!mesh.ok()) return Error{mesh.error()};
-      const auto* asked = std::get_if<ConvexHull>(&collider.shape);
-      const Real rounding = asked ? asked->rounding : Real(0);
-      collider.shape = ConvexHull{meshes.at(mesh.value()).hull, rounding};
-      out.visuals.push_back({mesh.value(), collider.pose});
-    }
+    Result<Shape> shape = shapes.make(part);
+    if (!shape.ok()) return Error{shape.error()};
+    collider.shape = std::move(shape).value();
+    // A surface is drawn as what it collides as.
+    if (!part.mesh.empty() && std::holds_alternative<ConvexHull>(collider.shape))
+      out.visuals.push_back({meshes.index_of(part.mesh).value(), collider.pose});
     out.colliders.push_back(std::move(collider));
   }
-  Result<std::optional<MassProperties>> mass = mass_of_body(scene, body, meshes);
+  Result<std::optional<MassProperties>> mass = mass_of_body(scene, body, out.colliders, meshes);
   if (!mass.ok()) return Error{mass.error()};
   out.body.mass = mass.value();
   return out;
@@ -146,6 +150,13 @@ BodyId SceneInstance::find(std::string_view name) const {
   return found == index_of.end() ? BodyId{} : bodies[found->second].id;
 }
 
+JointId SceneInstance::find_joint(std::string_view name) const {
+  const auto found =
+      std::find_if(joints.begin(), joints.end(),
+                   [&](const SceneInstanceJoint& joint) { return joint.name == name; });
+  return found == joints.end() ? JointId{} : found->id;
+}
+
 Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
   Undo undo(world);
   if (const Status status = world.set_settings(scene.settings); !status.ok()) {
@@ -153,8 +164,9 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
   }
   SceneInstance instance;
   MeshStore meshes(scene);
+  ShapeMaker shapes(scene, meshes);
   for (const SceneBody& body : scene.bodies) {
-    const Result<Template> model = make_template(scene, body, meshes);
+    const Result<Template> model = make_template(scene, body, meshes, shapes);
     if (!model.ok()) return Error{model.error()};
     const std::vector<scene::RepeatPlace> places =
         body.repeat ? scene::places_of(*body.repeat) : std::vector<scene::RepeatPlace>(1);
@@ -164,6 +176,16 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
           add_body(scene, body, model.value(), name, places[k], world, instance, undo);
       if (!error.empty()) return Error{std::move(error)};
     }
+  }
+  for (const SceneJoint& joint : scene.joints) {
+    const Result<Joint> placed = scene::place_joint(joint, world, instance);
+    if (!placed.ok()) return Error{place_of(scene, joint.line) + ": " + placed.error()};
+    const Created<JointId> created = world.create_joint(placed.value());
+    if (!created.ok()) {
+      return Error{place_of(scene, joint.line) + ": joint '" + joint.name +
+                   "': " + created.status.message};
+    }
+    instance.joints.push_back({joint.name, created.id});
   }
   meshes.move_into(instance);
   undo.keep();

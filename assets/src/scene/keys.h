@@ -14,9 +14,9 @@ using Keys = std::span<const std::string_view>;
 
 namespace keys {
 
-inline constexpr std::string_view kScene[] = {"$schema",     "plumb_scene", "name",
-                                              "description", "step",        "settings",
-                                              "materials",   "meshes",      "bodies"};
+inline constexpr std::string_view kScene[] = {
+    "$schema",   "plumb_scene", "name",         "description", "step",  "settings",
+    "materials", "meshes",      "heightfields", "bodies",      "joints"};
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
 inline constexpr std::string_view kSettings[] = {
     "gravity",  "substeps",      "contact_frequency", "contact_damping_ratio",
@@ -36,6 +36,7 @@ inline constexpr std::string_view kBody[] = {"name",
                                              "angular_damping",
                                              "gravity_scale",
                                              "locks",
+                                             "continuous",
                                              "can_sleep",
                                              "starts_awake",
                                              "mass",
@@ -44,18 +45,78 @@ inline constexpr std::string_view kBody[] = {"name",
 inline constexpr std::string_view kMass[] = {"mass", "center", "inertia"};
 inline constexpr std::string_view kOrientation[] = {"quaternion", "euler_degrees", "axis_angle"};
 inline constexpr std::string_view kCollider[] = {
-    "shape",    "radius",  "half_extents", "half_length",   "rounding",
-    "normal",   "offset",  "mesh",         "position",      "orientation",
-    "material", "density", "layers",       "collides_with", "sensor"};
+    "shape",       "radius",   "half_extents", "half_length", "rounding",      "normal",
+    "offset",      "mesh",     "scale",        "heightfield", "children",      "position",
+    "orientation", "material", "density",      "layers",      "collides_with", "sensor"};
+inline constexpr std::string_view kChild[] = {"shape",    "radius", "half_extents", "half_length",
+                                              "rounding", "mesh",   "position",     "orientation"};
+inline constexpr std::string_view kHeightfield[] = {"file", "heights", "spacing", "height_scale"};
 inline constexpr std::string_view kRepeat[] = {"count", "spacing", "jitter", "random_orientation",
                                                "seed"};
+
+// Of all kinds of joints together; which of them belong to which kind stands in kJointKeys.
+inline constexpr std::string_view kJoint[] = {"name",
+                                              "kind",
+                                              "body_a",
+                                              "body_b",
+                                              "anchor",
+                                              "anchor_a",
+                                              "anchor_b",
+                                              "axis",
+                                              "orientation",
+                                              "frame_a",
+                                              "frame_b",
+                                              "softness",
+                                              "collide_connected",
+                                              "break_force",
+                                              "break_torque",
+                                              "friction",
+                                              "limit",
+                                              "motor",
+                                              "spring",
+                                              "length",
+                                              "max_length",
+                                              "rest_length",
+                                              "stiffness",
+                                              "damping",
+                                              "pulls_only",
+                                              "cone",
+                                              "cone_degrees",
+                                              "twist",
+                                              "twist_degrees",
+                                              "limit_softness",
+                                              "coordinates",
+                                              "first",
+                                              "second",
+                                              "ratio",
+                                              "pinion",
+                                              "rack",
+                                              "radius",
+                                              "over_a",
+                                              "over_b",
+                                              "stiff",
+                                              "mode",
+                                              "linear",
+                                              "angular",
+                                              "angular_degrees",
+                                              "max_force",
+                                              "max_torque"};
+inline constexpr std::string_view kJointFrame[] = {"position", "axis", "orientation"};
+inline constexpr std::string_view kJointSoftness[] = {"frequency", "damping_ratio"};
+inline constexpr std::string_view kJointLimit[] = {"range", "range_degrees", "softness",
+                                                   "restitution"};
+inline constexpr std::string_view kJointMotor[] = {"mode", "target", "target_degrees", "max_effort",
+                                                   "softness"};
+inline constexpr std::string_view kJointSpring[] = {"rest", "rest_degrees", "stiffness", "damping"};
+inline constexpr std::string_view kCoordinates[] = {"x", "y", "z", "twist", "swing_y", "swing_z"};
+inline constexpr std::string_view kJointAxis[] = {"limit", "motor", "spring", "friction"};
 
 // For the test: the table above under the names that the schema's "$defs" use.
 struct Named {
   std::string_view name;
   Keys keys;
 };
-inline constexpr std::array<Named, 11> kAll{{{"scene", kScene},
+inline constexpr std::array<Named, 21> kAll{{{"scene", kScene},
                                              {"step", kStep},
                                              {"settings", kSettings},
                                              {"material", kMaterial},
@@ -65,7 +126,17 @@ inline constexpr std::array<Named, 11> kAll{{{"scene", kScene},
                                              {"mass", kMass},
                                              {"orientation", kOrientation},
                                              {"collider", kCollider},
-                                             {"repeat", kRepeat}}};
+                                             {"repeat", kRepeat},
+                                             {"child", kChild},
+                                             {"heightfield", kHeightfield},
+                                             {"joint", kJoint},
+                                             {"joint_frame", kJointFrame},
+                                             {"joint_softness", kJointSoftness},
+                                             {"joint_limit", kJointLimit},
+                                             {"joint_motor", kJointMotor},
+                                             {"joint_spring", kJointSpring},
+                                             {"joint_coordinates", kCoordinates},
+                                             {"joint_axis", kJointAxis}}};
 
 }  // namespace keys
 
@@ -75,14 +146,45 @@ struct ShapeKeys {
   std::array<std::string_view, 3> keys;  // empty text: none
   int needed;                            // so many of them, from the first
 };
-inline constexpr std::array<ShapeKeys, 7> kShapeKeys{
+inline constexpr std::array<ShapeKeys, 9> kShapeKeys{
     {{"sphere", {"radius", "", ""}, 1},
      {"box", {"half_extents", "rounding", ""}, 1},
      {"capsule", {"half_length", "radius", ""}, 2},
      {"half_space", {"normal", "offset", ""}, 2},
-     {"mesh", {"mesh", "rounding", ""}, 1},
+     {"mesh", {"mesh", "rounding", "scale"}, 1},
      {"cylinder", {"half_length", "radius", "rounding"}, 2},
-     {"cone", {"half_length", "radius", "rounding"}, 2}}};
+     {"cone", {"half_length", "radius", "rounding"}, 2},
+     {"heightfield", {"heightfield", "", ""}, 1},
+     {"compound", {"children", "", ""}, 1}}};
+// The shapes that a part of a compound may have.
+inline constexpr std::string_view kChildShapes[] = {"sphere", "box",      "capsule",
+                                                    "mesh",   "cylinder", "cone"};
+
+// Which of the joint's keys belong to which kind, in the order of JointKind; all others are common.
+struct JointKeys {
+  std::string_view kind;
+  std::array<std::string_view, 6> keys;  // empty text: none
+};
+inline constexpr std::array<JointKeys, 13> kJointKeys{
+    {{"ball", {"friction"}},
+     {"hinge", {"limit", "motor", "spring", "friction"}},
+     {"slider", {"limit", "motor", "spring", "friction"}},
+     {"fixed", {}},
+     {"distance", {"length"}},
+     {"rope", {"max_length"}},
+     {"spring", {"rest_length", "stiffness", "damping", "pulls_only"}},
+     {"cone_twist",
+      {"cone", "cone_degrees", "twist", "twist_degrees", "limit_softness", "friction"}},
+     {"six_dof", {"coordinates"}},
+     {"gear", {"first", "second", "ratio"}},
+     {"rack_pinion", {"pinion", "rack", "radius"}},
+     {"pulley", {"over_a", "over_b", "ratio", "length", "stiff"}},
+     {"motor", {"mode", "linear", "angular", "angular_degrees", "max_force", "max_torque"}}}};
+// What couplings, which take their bodies from other joints, do not have.
+inline constexpr std::string_view kPlacementKeys[] = {
+    "body_a", "body_b",      "anchor",  "anchor_a", "anchor_b",
+    "axis",   "orientation", "frame_a", "frame_b",  "collide_connected"};
+inline constexpr std::string_view kMotorModes[] = {"velocity", "position"};
 
 // Words with a fixed meaning, in the order of the enum they stand for.
 inline constexpr std::string_view kMotionTypes[] = {"static", "kinematic", "dynamic"};
@@ -90,7 +192,7 @@ inline constexpr std::string_view kRotationMethods[] = {"exact", "implicit_gyro"
 inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum",
                                                      "maximum", "multiply"};
 inline constexpr std::string_view kAxes[] = {"x", "y", "z"};
-inline constexpr std::string_view kCollisions[] = {"hull"};
+inline constexpr std::string_view kCollisions[] = {"hull", "surface"};
 inline constexpr std::string_view kMassMethods[] = {"solid", "shell", "hull", "voxel"};
 inline constexpr std::string_view kLocks[] = {"linear_x",  "linear_y",  "linear_z",
                                               "angular_x", "angular_y", "angular_z"};

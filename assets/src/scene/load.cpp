@@ -8,6 +8,7 @@
 #include "scene/json_tree.h"
 #include "scene/keys.h"
 #include "scene/object_reader.h"
+#include "scene/read_joint.h"
 #include "scene/read_parts.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
@@ -98,7 +99,28 @@ void read_scene(const JsonNode& root, Scene& scene, Problems& problems) {
       read_mesh(member.value, "mesh '" + member.key + "'", mesh, problems);
     }
   }
+  if (const JsonNode* fields = list_of(in, "heightfields", JsonNode::Kind::Object)) {
+    for (const JsonMember& member : fields->members) {
+      SceneHeightfield& field = scene.heightfields.emplace_back();
+      field.name = member.key;
+      read_heightfield(member.value, "heightfield '" + member.key + "'", field, problems);
+    }
+  }
   read_bodies(in, scene);
+  if (const JsonNode* joints = list_of(in, "joints", JsonNode::Kind::Array))
+    JointsReader(scene, problems).read(*joints, scene.joints);
+}
+
+// Where a file is that the scene names, from the working directory; it is missed on request.
+std::string path_of(const std::string& folder, const std::string& file, int line,
+                    const std::string& what, bool look_for_files, Problems& problems) {
+  std::string path = (std::filesystem::path(folder) / file).lexically_normal().string();
+  std::error_code ignored;
+  if (look_for_files && !file.empty() && !std::filesystem::is_regular_file(path, ignored)) {
+    problems.add(line, "the file '" + path + "' of " + what + " is not there",
+                 "correct \"file\", which counts from the folder of the scene");
+  }
+  return path;
 }
 
 // With the problems of a file that could be read; mesh files are looked for only on request.
@@ -111,14 +133,12 @@ Result<Scene> parse(std::string_view text, const std::string& name, const std::s
   scene.source = name;
   read_scene(root, scene, problems);
   for (SceneMesh& mesh : scene.meshes) {
-    mesh.path = (std::filesystem::path(folder) / mesh.file).lexically_normal().string();
-    std::error_code ignored;
-    if (look_for_files && !mesh.file.empty() &&
-        !std::filesystem::is_regular_file(mesh.path, ignored)) {
-      problems.add(mesh.line,
-                   "the file '" + mesh.path + "' of mesh '" + mesh.name + "' is not there",
-                   "correct \"file\", which counts from the folder of the scene");
-    }
+    mesh.path =
+        path_of(folder, mesh.file, mesh.line, "mesh '" + mesh.name + "'", look_for_files, problems);
+  }
+  for (SceneHeightfield& field : scene.heightfields) {
+    field.path = path_of(folder, field.file, field.line, "heightfield '" + field.name + "'",
+                         look_for_files, problems);
   }
   if (!problems.empty()) return Error{problems.text()};
   return scene;
@@ -139,6 +159,12 @@ std::size_t Scene::body_count() const {
 const SceneMesh* Scene::find_mesh(std::string_view name_wanted) const {
   for (const SceneMesh& mesh : meshes)
     if (mesh.name == name_wanted) return &mesh;
+  return nullptr;
+}
+
+const SceneHeightfield* Scene::find_heightfield(std::string_view name_wanted) const {
+  for (const SceneHeightfield& field : heightfields)
+    if (field.name == name_wanted) return &field;
   return nullptr;
 }
 

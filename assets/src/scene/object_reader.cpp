@@ -41,15 +41,19 @@ ObjectReader::ObjectReader(const JsonNode& node, std::string what, Keys keys, Pr
     return;
   }
   for (const JsonMember& member : node.members) {
-    if (std::find(keys.begin(), keys.end(), member.key) == keys.end()) {
+    if (!knows(member.key)) {
       problems_.add(member.line, "unknown key " + quoted(member.key) + " in " + what_,
                     suggestion(member.key, keys));
     }
   }
 }
 
+bool ObjectReader::knows(std::string_view key) const {
+  return std::find(keys_.begin(), keys_.end(), key) != keys_.end();
+}
+
 const JsonNode* ObjectReader::find(std::string_view key) const {
-  assert(std::find(keys_.begin(), keys_.end(), key) != keys_.end());
+  assert(knows(key));
   const JsonMember* member = node_.find(key);
   return member ? &member->value : nullptr;
 }

@@ -32,6 +32,8 @@ class ObjectReader {
 
   [[nodiscard]] bool is_object() const { return node_.kind == JsonNode::Kind::Object; }
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
+  // Whether the key is one that this kind of object may have; only such keys may be asked for.
+  [[nodiscard]] bool knows(std::string_view key) const;
   [[nodiscard]] const JsonNode* find(std::string_view key) const;
   [[nodiscard]] int line() const { return node_.line; }
   [[nodiscard]] int line_of(std::string_view key) const;

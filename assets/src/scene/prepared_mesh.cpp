@@ -20,6 +20,24 @@ std::string MeshStore::place_of(const SceneMesh& mesh) const {
   return place + ": mesh '" + mesh.name + "': ";
 }
 
+std::string MeshStore::make_hull(PreparedMesh& prepared) {
+  Result<HullMesh> hull =
+      convex_hull(prepared.mesh.vertices, {.max_vertices = prepared.source->max_hull_vertices});
+  if (!hull.ok()) return hull.error();
+  prepared.hull_mesh = std::move(hull).value();
+  Result<std::shared_ptr<const HullGeometry>> geometry = to_physics(prepared.hull_mesh);
+  if (!geometry.ok()) return geometry.error();
+  prepared.hull = geometry.value();
+  return {};
+}
+
+std::string MeshStore::make_surface(PreparedMesh& prepared) {
+  Result<std::shared_ptr<const TriangleMeshGeometry>> surface = to_physics(prepared.mesh);
+  if (!surface.ok()) return surface.error();
+  prepared.surface = surface.value();
+  return {};
+}
+
 Result<std::size_t> MeshStore::index_of(const std::string& name) {
   for (std::size_t k = 0; k < meshes_.size(); ++k)
     if (meshes_[k].source->name == name) return k;
@@ -35,13 +53,9 @@ Result<std::size_t> MeshStore::index_of(const std::string& name) {
   PreparedMesh prepared;
   prepared.source = source;
   prepared.mesh = std::move(imported.value().mesh);
-  Result<HullMesh> hull =
-      convex_hull(prepared.mesh.vertices, {.max_vertices = source->max_hull_vertices});
-  if (!hull.ok()) return Error{place_of(*source) + hull.error()};
-  prepared.hull_mesh = std::move(hull).value();
-  Result<std::shared_ptr<const HullGeometry>> geometry = to_physics(prepared.hull_mesh);
-  if (!geometry.ok()) return Error{place_of(*source) + geometry.error()};
-  prepared.hull = geometry.value();
+  const bool is_surface = source->collision == SceneMesh::Collision::Surface;
+  const std::string wrong = is_surface ? make_surface(prepared) : make_hull(prepared);
+  if (!wrong.empty()) return Error{place_of(*source) + wrong};
   meshes_.push_back(std::move(prepared));
   return meshes_.size() - 1;
 }
@@ -69,6 +83,11 @@ void MeshStore::move_into(SceneInstance& instance) {
   for (PreparedMesh& mesh : meshes_) {
     SceneInstanceMesh& out = instance.meshes.emplace_back();
     out.name = mesh.source->name;
+    if (mesh.surface && mesh.surface->odd_edges() > 0) {
+      instance.notes.push_back("mesh '" + out.name + "' has " +
+                               std::to_string(mesh.surface->odd_edges()) +
+                               " edges where triangles do not fit together; they can be felt");
+    }
     out.hull = std::move(mesh.hull);
     if (mesh.volume > 0) {
       const Result<MeshMass> hull_mass =

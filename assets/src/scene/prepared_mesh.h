@@ -1,5 +1,5 @@
-// The meshes of a scene, each read and turned into a hull once, when the first body asks for it;
-// its mass only when a moving body needs it.
+// The meshes of a scene, each read and turned into a hull or a surface once, when the first body
+// asks for it; its mass only when a moving body needs it.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,11 @@ struct PreparedMesh {
   const SceneMesh* source = nullptr;
   TriangleMesh mesh;
   HullMesh hull_mesh;
-  std::shared_ptr<const HullGeometry> hull;
-  std::optional<MassProperties> mass;  // at the density of the scene's mesh
-  double density = 0;                  // [kg/m^3] of `mass`
-  double volume = 0;                   // [m^3] inside the mesh; 0 if not known
+  std::shared_ptr<const HullGeometry> hull;             // null: it collides as a surface
+  std::shared_ptr<const TriangleMeshGeometry> surface;  // null: it collides as a hull
+  std::optional<MassProperties> mass;                   // at the density of the scene's mesh
+  double density = 0;                                   // [kg/m^3] of `mass`
+  double volume = 0;                                    // [m^3] inside the mesh; 0 if not known
 };
 
 class MeshStore {
@@ -27,13 +28,16 @@ class MeshStore {
 
   Result<std::size_t> index_of(const std::string& name);
   [[nodiscard]] const PreparedMesh& at(std::size_t index) const { return meshes_[index]; }
-  // With a density other than that of the mesh if one is given [kg/m^3] > 0.
+  // Of a hull. With a density other than that of the mesh if one is given [kg/m^3] > 0.
   Result<MassProperties> mass_of(const std::string& name, std::optional<double> density);
-  // Visual meshes, hulls and notes.
+  // Visual meshes, hulls and notes. The stored ones are gone then.
   void move_into(SceneInstance& instance);
 
  private:
   [[nodiscard]] std::string place_of(const SceneMesh& mesh) const;
+  // An empty text: it went well.
+  static std::string make_hull(PreparedMesh& prepared);
+  static std::string make_surface(PreparedMesh& prepared);
 
   const plumb::PLUMB_ABI::assets::Scene& scene_;
   std::vector<PreparedMesh> meshes_;

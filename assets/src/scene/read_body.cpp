@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <string>
-#include <variant>
 
 #include "scene/nearest.h"
 #include "scene/read_parts.h"
@@ -89,104 +88,6 @@ void read_mass(const ObjectReader& in, SceneBody& body) {
   body.body.mass = properties;
 }
 
-// A key that belongs to another shape is a slip that would go unseen.
-void refuse_foreign_keys(const ObjectReader& in, const ShapeKeys& own) {
-  for (const ShapeKeys& other : kShapeKeys) {
-    for (const std::string_view key : other.keys) {
-      if (key.empty() || !in.has(key)) continue;
-      if (std::find(own.keys.begin(), own.keys.end(), key) != own.keys.end()) continue;
-      std::string wanted(own.keys[0]);
-      if (own.needed > 1) wanted += " and " + std::string(own.keys[1]);
-      in.problems().add(in.line_of(key),
-                        in.what() + " is a " + std::string(own.shape) + ", which has no '" +
-                            std::string(key) + "'",
-                        "it is described by " + wanted);
-    }
-  }
-}
-
-void need(const ObjectReader& in, std::string_view key, const std::string& remedy) {
-  if (!in.has(key)) in.missing(key, remedy);
-}
-
-template <class Round>
-Round read_round(const ObjectReader& in, const char* length_remedy) {
-  Round shape;
-  need(in, "radius", "give the radius in metres");
-  need(in, "half_length", length_remedy);
-  in.number("radius", shape.radius, kPositive);
-  in.number("half_length", shape.half_length, kPositive);
-  in.number("rounding", shape.rounding, kNotNegative);
-  return shape;
-}
-
-void read_shape(const ObjectReader& in, const Scene& scene, SceneCollider& collider) {
-  constexpr std::string_view kShapes[] = {
-      kShapeKeys[0].shape, kShapeKeys[1].shape, kShapeKeys[2].shape, kShapeKeys[3].shape,
-      kShapeKeys[4].shape, kShapeKeys[5].shape, kShapeKeys[6].shape};
-  std::size_t which = 0;
-  need(in, "shape", "use one of " + joined(kShapes));
-  if (!in.choice("shape", kShapes, which)) return;
-  refuse_foreign_keys(in, kShapeKeys[which]);
-  switch (which) {
-    case 0: {
-      Sphere sphere;
-      need(in, "radius", "give the radius in metres");
-      in.number("radius", sphere.radius, kPositive);
-      collider.collider.shape = sphere;
-      break;
-    }
-    case 1: {
-      Box box;
-      need(in, "half_extents", "give half of the width, height and depth in metres");
-      in.vector("half_extents", box.half_extents, kPositive);
-      in.number("rounding", box.rounding, kNotNegative);
-      collider.collider.shape = box;
-      break;
-    }
-    case 2: {
-      Capsule capsule;
-      need(in, "radius", "give the radius in metres");
-      need(in, "half_length", "give half of the length between the end centres in metres");
-      in.number("radius", capsule.radius, kPositive);
-      in.number("half_length", capsule.half_length, kPositive);
-      collider.collider.shape = capsule;
-      break;
-    }
-    case 3: {
-      HalfSpace half_space;
-      in.vector("normal", half_space.normal);
-      in.number("offset", half_space.offset);
-      if (!(half_space.normal.norm() > 0)) {
-        in.problems().add(in.line_of("normal"), "'normal' of " + in.what() + " has no length",
-                          "write the direction out of the solid, for example [0, 1, 0]");
-      }
-      collider.collider.shape = half_space;
-      break;
-    }
-    case 5: {
-      collider.collider.shape = read_round<Cylinder>(in, "give half of the length in metres");
-      break;
-    }
-    case 6: {
-      collider.collider.shape = read_round<Cone>(in, "give half of the height in metres");
-      break;
-    }
-    default: {
-      ConvexHull hull;  // its geometry comes from the mesh
-      in.number("rounding", hull.rounding, kNotNegative);
-      collider.collider.shape = hull;
-      need(in, "mesh", "name one of the scene's meshes");
-      if (!in.text("mesh", collider.mesh) || scene.find_mesh(collider.mesh)) break;
-      std::vector<std::string_view> names;
-      for (const SceneMesh& mesh : scene.meshes) names.push_back(mesh.name);
-      in.problems().add(
-          in.line_of("mesh"), "there is no mesh '" + collider.mesh + "'",
-          names.empty() ? "describe it under \"meshes\"" : suggestion(collider.mesh, names));
-    }
-  }
-}
-
 void read_surface(const ObjectReader& in, const Scene& scene, SceneCollider& collider) {
   const JsonNode* node = in.find("material");
   if (!node) return;
@@ -215,10 +116,7 @@ void read_collider(const JsonNode& node, const std::string& what, const Scene& s
   collider.line = node.line;
   if (!in.is_object()) return;
   read_shape(in, scene, collider);
-  in.vector("position", collider.collider.pose.position);
-  Eigen::Quaterniond orientation;
-  if (read_orientation(in, orientation))
-    collider.collider.pose.orientation = orientation.cast<Real>();
+  read_pose(in, collider.collider.pose);
   read_surface(in, scene, collider);
   double density = 0;
   if (in.number("density", density, kNotNegative)) {
@@ -241,6 +139,10 @@ void read_body(const JsonNode& node, const Scene& scene, SceneBody& body, Proble
     problems.add(in.line_of("name"), "'" + body.name + "' cannot be the name of a body",
                  "use a text that is not empty and holds no '['");
   }
+  if (body.name == kWorldName) {
+    problems.add(in.line_of("name"), "'world' cannot be the name of a body",
+                 "joints mean the world itself by it: use another name");
+  }
 
   RigidBody& out = body.body;
   in.choice("type", kMotionTypes, out.type);
@@ -252,6 +154,7 @@ void read_body(const JsonNode& node, const Scene& scene, SceneBody& body, Proble
   in.number("linear_damping", out.linear_damping, kNotNegative);
   in.number("angular_damping", out.angular_damping, kNotNegative);
   in.number("gravity_scale", out.gravity_scale);
+  in.flag("continuous", out.continuous);
   in.flag("can_sleep", out.can_sleep);
   in.flag("starts_awake", out.starts_awake);
   read_locks(in, out.locks);
@@ -271,13 +174,8 @@ void read_body(const JsonNode& node, const Scene& scene, SceneBody& body, Proble
     SceneCollider& collider = body.colliders.emplace_back();
     read_collider(colliders->items[k], "collider " + std::to_string(k) + " of " + what, scene,
                   collider, problems);
-    if (out.type != MotionType::Static &&
-        std::holds_alternative<HalfSpace>(collider.collider.shape)) {
-      problems.add(collider.line,
-                   what + " moves, but its collider " + std::to_string(k) +
-                       " is a half-space, which has no end",
-                   "write \"type\": \"static\" or use another shape");
-    }
+    check_motion(scene, collider, "collider " + std::to_string(k) + " of " + what, out.type,
+                 problems);
   }
 }
 

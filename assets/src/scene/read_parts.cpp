@@ -85,7 +85,16 @@ void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, P
     in.missing(
         "collision",
         "write \"collision\": \"hull\" to let it collide as its convex hull, the hollows of a "
-        "concave mesh filled");
+        "concave mesh filled, or \"surface\" for triangles that do not move freely");
+  }
+  if (mesh.collision == SceneMesh::Collision::Surface) {
+    for (const std::string_view key : {"max_hull_vertices", "density", "mass_of"}) {
+      if (!in.has(key)) continue;
+      problems.add(in.line_of(key),
+                   "'" + std::string(key) + "' of " + what + " has no meaning for a surface",
+                   "remove it or write \"collision\": \"hull\"");
+    }
+    return;
   }
   int vertices = static_cast<int>(mesh.max_hull_vertices);
   in.integer("max_hull_vertices", vertices, kFewestHullVertices, kMostHullVertices);
@@ -164,6 +173,12 @@ bool read_orientation(const ObjectReader& parent, Eigen::Quaterniond& orientatio
     return true;
   }
   return false;
+}
+
+void read_pose(const ObjectReader& in, LocalPose& pose) {
+  in.vector("position", pose.position);
+  Eigen::Quaterniond orientation;
+  if (read_orientation(in, orientation)) pose.orientation = orientation.cast<Real>();
 }
 
 void read_repeat(const JsonNode& node, const std::string& what, SceneRepeat& repeat,

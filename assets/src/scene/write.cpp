@@ -1,42 +1,22 @@
-#include <charconv>
-#include <nlohmann/json.hpp>
+#include <cmath>
 
 #include "plumb/assets/scene.h"
+#include "scene/json_words.h"
 #include "scene/keys.h"
+#include "scene/write_joint.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
 namespace {
 
-// Keys in the order in which they are written.
-using Json = nlohmann::ordered_json;
+using scene::Json;
+using scene::json_of_joint;
+using scene::list;
+using scene::orientation;
+using scene::tidy;
+using scene::word;
 
 constexpr int kIndent = 2;
 constexpr std::uint32_t kAllLayers = 0xffffffffu;
-
-[[maybe_unused]] double tidy(double value) { return value; }
-// The shortest decimal that is this float, so that 0.1f is written 0.1 and not 0.10000000149.
-[[maybe_unused]] double tidy(float value) {
-  char digits[32];
-  const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  double wide = 0;
-  std::from_chars(digits, end, wide);
-  return wide;
-}
-
-template <class T>
-Json list(const Eigen::Matrix<T, 3, 1>& v) {
-  return Json::array({tidy(v.x()), tidy(v.y()), tidy(v.z())});
-}
-
-template <class T, int Options>
-Json orientation(const Eigen::Quaternion<T, Options>& q) {
-  return {{"quaternion", Json::array({tidy(q.x()), tidy(q.y()), tidy(q.z()), tidy(q.w())})}};
-}
-
-template <class Enum>
-std::string word(scene::Keys words, Enum value) {
-  return std::string(words[static_cast<std::size_t>(value)]);
-}
 
 Json layers(std::uint32_t bits) {
   Json out = Json::array();
@@ -69,6 +49,7 @@ Json json_of(const SceneMesh& mesh) {
   if (mesh.metres_per_unit) out["metres_per_unit"] = *mesh.metres_per_unit;
   if (mesh.up) out["up"] = word(scene::kAxes, *mesh.up);
   out["collision"] = word(scene::kCollisions, mesh.collision);
+  if (mesh.collision == SceneMesh::Collision::Surface) return out;
   out["max_hull_vertices"] = mesh.max_hull_vertices;
   out["density"] = mesh.mass.density;
   Json mass = {{"method", word(scene::kMassMethods, mesh.mass.method)}};
@@ -111,21 +92,66 @@ void write_shape(const Shape& shape, Json& out) {
   }
 }
 
+void write_pose(const LocalPose& pose, Json& out) {
+  if (pose.position != Vec3::Zero()) out["position"] = list(pose.position);
+  if (pose.orientation.coeffs() != Quat::Identity().coeffs())
+    out["orientation"] = orientation(pose.orientation);
+}
+
+void write_mesh_shape(const std::string& mesh, const Shape& shape, Json& out) {
+  out["shape"] = "mesh";
+  out["mesh"] = mesh;
+  if (const auto* hull = std::get_if<ConvexHull>(&shape)) write_rounding(hull->rounding, out);
+  const auto* surface = std::get_if<SurfaceMesh>(&shape);
+  if (surface && surface->scale != Vec3::Ones()) out["scale"] = list(surface->scale);
+}
+
+Json json_of(const SceneChild& child) {
+  Json out;
+  if (child.mesh.empty()) {
+    write_shape(child.child.shape, out);
+  } else {
+    write_mesh_shape(child.mesh, child.child.shape, out);
+  }
+  write_pose(child.child.pose, out);
+  return out;
+}
+
+Json json_of(const SceneHeightfield& field) {
+  Json out;
+  out["spacing"] = field.spacing;
+  out["height_scale"] = field.height_scale;
+  if (!field.file.empty()) {
+    out["file"] = field.file;
+    return out;
+  }
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < field.heights.size(); ++k) {
+    if (k % field.samples_x == 0) rows.push_back(Json::array());
+    const double height = field.heights[k];
+    rows.back().push_back(std::isnan(height) ? Json(nullptr) : Json(height));
+  }
+  out["heights"] = std::move(rows);
+  return out;
+}
+
 Json json_of(const SceneCollider& scene_collider) {
   const Collider& collider = scene_collider.collider;
   Json out;
-  if (scene_collider.mesh.empty()) {
-    write_shape(collider.shape, out);
+  if (!scene_collider.mesh.empty()) {
+    write_mesh_shape(scene_collider.mesh, collider.shape, out);
+  } else if (!scene_collider.heightfield.empty()) {
+    out["shape"] = "heightfield";
+    out["heightfield"] = scene_collider.heightfield;
+  } else if (!scene_collider.children.empty()) {
+    out["shape"] = "compound";
+    Json children = Json::array();
+    for (const SceneChild& child : scene_collider.children) children.push_back(json_of(child));
+    out["children"] = std::move(children);
   } else {
-    out["shape"] = "mesh";
-    out["mesh"] = scene_collider.mesh;
-    if (const auto* hull = std::get_if<ConvexHull>(&collider.shape))
-      write_rounding(hull->rounding, out);
+    write_shape(collider.shape, out);
   }
-  if (collider.pose.position != Vec3::Zero()) out["position"] = list(collider.pose.position);
-  if (collider.pose.orientation.coeffs() != Quat::Identity().coeffs()) {
-    out["orientation"] = orientation(collider.pose.orientation);
-  }
+  write_pose(collider.pose, out);
   if (scene_collider.material.empty()) {
     out["material"] = json_of(collider.material);
   } else {
@@ -170,6 +196,7 @@ Json json_of(const SceneBody& scene_body) {
   out["angular_damping"] = tidy(body.angular_damping);
   out["gravity_scale"] = tidy(body.gravity_scale);
   out["locks"] = json_of(body.locks);
+  out["continuous"] = body.continuous;
   out["can_sleep"] = body.can_sleep;
   out["starts_awake"] = body.starts_awake;
   if (scene_body.mass_scaled_to) {
@@ -203,8 +230,13 @@ std::string scene_to_json(const Scene& scene) {
   }
   out["meshes"] = Json::object();
   for (const SceneMesh& mesh : scene.meshes) out["meshes"][mesh.name] = json_of(mesh);
+  out["heightfields"] = Json::object();
+  for (const SceneHeightfield& field : scene.heightfields)
+    out["heightfields"][field.name] = json_of(field);
   out["bodies"] = Json::array();
   for (const SceneBody& body : scene.bodies) out["bodies"].push_back(json_of(body));
+  out["joints"] = Json::array();
+  for (const SceneJoint& joint : scene.joints) out["joints"].push_back(json_of_joint(joint));
   return out.dump(kIndent) + "\n";
 }
 

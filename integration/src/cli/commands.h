@@ -19,7 +19,8 @@ struct RunOptions {
   std::optional<std::int64_t> steps;  // >= 0
   std::optional<double> dt;           // [s]
   std::optional<int> substeps;
-  int threads = 1;  // 0: as many as the machine has
+  int threads = 1;      // 0: as many as the machine has
+  bool labels = false;  // names in the recording's 3D view
   bool quiet = false;
 };
 int run_scene(const RunOptions& options);

@@ -35,6 +35,7 @@ void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
   run->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
+  run->add_flag("--labels", options.labels, "Show names beside bodies and joints in the recording");
   run->add_flag("-q,--quiet", options.quiet, "No progress bar and no summary");
   run->callback([&] { exit_code = run_scene(options); });
 }

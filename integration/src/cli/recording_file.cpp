@@ -20,7 +20,8 @@ struct RecordingFile::State {
 };
 
 std::string RecordingFile::open(const std::string& path, const assets::Scene& scene,
-                                const assets::SceneInstance& instance, PhysicsWorld& world) {
+                                const assets::SceneInstance& instance, PhysicsWorld& world,
+                                bool labels) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     return path + " is a folder; give the name of a file, for example run.rrd";
@@ -38,6 +39,7 @@ std::string RecordingFile::open(const std::string& path, const assets::Scene& sc
   options.frames_per_second = 1 / scene.step.dt;
   if (const auto opened = state->recorder.open(options); !opened.ok()) return opened.error;
   integration::show_meshes(state->recorder, instance);
+  if (labels) integration::show_labels(state->recorder, scene, instance, world);
   world.attach(&state->recorder);
   state_ = std::move(state);
   return {};
@@ -72,7 +74,7 @@ std::uint64_t RecordingFile::body_steps() const { return state_ ? state_->cost.b
 struct RecordingFile::State {};
 
 std::string RecordingFile::open(const std::string&, const assets::Scene&,
-                                const assets::SceneInstance&, PhysicsWorld&) {
+                                const assets::SceneInstance&, PhysicsWorld&, bool) {
   return "this build of plumb cannot record; build it with PLUMB_REPLAY=ON (needs cargo) or leave "
          "out -o";
 }

@@ -18,8 +18,9 @@ class RecordingFile {
   RecordingFile& operator=(const RecordingFile&) = delete;
 
   // Each returns an error text, empty if all is well. open() is to be called before the first step.
+  // labels: names beside bodies and joints in 3D.
   std::string open(const std::string& path, const assets::Scene& scene,
-                   const assets::SceneInstance& instance, PhysicsWorld& world);
+                   const assets::SceneInstance& instance, PhysicsWorld& world, bool labels);
   // Of what was recorded so far: a full disk, for example.
   [[nodiscard]] std::string problem() const;
   std::string finish(PhysicsWorld& world);

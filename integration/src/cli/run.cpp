@@ -92,7 +92,8 @@ int run_scene(const RunOptions& options) {
 
   RecordingFile recording;
   if (!options.output.empty()) {
-    const std::string wrong = recording.open(options.output, scene, *instance, world);
+    const std::string wrong =
+        recording.open(options.output, scene, *instance, world, options.labels);
     if (!wrong.empty()) {
       complain(wrong);
       return kBadInput;

@@ -58,6 +58,7 @@ static KNOWN: LazyLock<HashMap<String, Known>> = LazyLock::new(|| {
         (Points3D::descriptor_positions(), F32, 3),
         (Points3D::descriptor_radii(), F32, 1),
         (Points3D::descriptor_colors(), U32, 1),
+        (Points3D::descriptor_labels(), Text, 1),
         (Arrows3D::descriptor_origins(), F32, 3),
         (Arrows3D::descriptor_vectors(), F32, 3),
         (Arrows3D::descriptor_radii(), F32, 1),

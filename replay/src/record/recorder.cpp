@@ -11,6 +11,8 @@
 #include "record/body_table.h"
 #include "record/contact_marks.h"
 #include "record/frame_queue.h"
+#include "record/joint_marks.h"
+#include "record/labels.h"
 #include "record/plots.h"
 #include "record/replay_tables.h"
 #include "record/text_log.h"
@@ -42,11 +44,13 @@ class Recorder::Run {
   rrd::Writer writer_;
   RecorderCost cost_;
   detail::Visuals visuals_;
+  detail::Labels labels_;
 
  private:
   void copy(const StepView& view, detail::Frame& frame);
   // `world`: where it may be looked at; null on the encoding thread.
   void encode(const detail::Frame& frame, const PhysicsWorld* world);
+  void encode_scene(const detail::Frame& frame, const PhysicsWorld* world);
   void send();
   [[nodiscard]] bool scene_changed(const detail::Frame& frame) const;
 
@@ -54,6 +58,7 @@ class Recorder::Run {
   detail::ReplayTables replay_;
   detail::BodyTable bodies_;
   detail::ContactMarks contacts_;
+  detail::JointMarks joints_;
   detail::Plots plots_;
   detail::TextLog text_log_;
   detail::SceneExtent extent_;
@@ -137,7 +142,7 @@ void Recorder::Run::attach(const PhysicsWorld& world) {
   if (options_.plots) plots_.send_names(writer_);
   replay_.send_head(writer_, options_, world);
   replay_.send_snapshot(writer_, world.save(), frame.number, frame.time);
-  if (options_.visuals) visuals_.rebuild(writer_, world, frame, extent_);
+  if (options_.visuals) encode_scene(frame, &world);
   if (options_.body_states) bodies_.add(frame);
   if (options_.text_log) text_log_.add_plan(world, frame);
   if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
@@ -145,12 +150,15 @@ void Recorder::Run::attach(const PhysicsWorld& world) {
 
 // Whether something was done that changes what is to be drawn, or where what never moves stands.
 bool Recorder::Run::scene_changed(const detail::Frame& frame) const {
+  if (!frame.broken.empty()) return true;
   for (const InputRecord& input : frame.inputs) {
     switch (input.kind) {
       case InputKind::CreateBody:
       case InputKind::DestroyBody:
       case InputKind::CreateCollider:
       case InputKind::DestroyCollider:
+      case InputKind::CreateJoint:
+      case InputKind::DestroyJoint:
       case InputKind::SetSettings:
         return true;
       case InputKind::SetPose: {
@@ -218,19 +226,25 @@ void Recorder::Run::step(const StepView& view) {
   }
 }
 
+void Recorder::Run::encode_scene(const detail::Frame& frame, const PhysicsWorld* world) {
+  if (world) {
+    visuals_.rebuild(writer_, *world, frame, extent_);
+    joints_.rebuild(writer_, *world, frame, extent_);
+    labels_.rebuild(writer_, *world, frame);
+  } else {
+    visuals_.add(frame);
+    joints_.add(frame);
+    labels_.add(frame);
+  }
+}
+
 void Recorder::Run::encode(const detail::Frame& frame, const PhysicsWorld* world) {
   if (!ok_) return;
   try {
     replay_.add_inputs(frame.inputs);
     if (options_.text_log) text_log_.add_events(frame);
     if (!frame.moved) return;
-    if (options_.visuals) {
-      if (world) {
-        visuals_.rebuild(writer_, *world, frame, extent_);
-      } else {
-        visuals_.add(frame);
-      }
-    }
+    if (options_.visuals) encode_scene(frame, world);
     if (options_.text_log && world) text_log_.add_plan(*world, frame);
     if (options_.contacts) contacts_.add(frame);
     if (options_.plots) plots_.add(frame);
@@ -252,6 +266,8 @@ void Recorder::Run::send() {
   replay_.send(writer_);
   bodies_.send(writer_);
   visuals_.send(writer_);
+  joints_.send(writer_);
+  labels_.send(writer_);
   contacts_.send(writer_);
   plots_.send(writer_);
   text_log_.send(writer_);
@@ -290,6 +306,14 @@ Outcome Recorder::open(const RecorderOptions& options) {
 
 void Recorder::show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh) {
   if (run_) run_->visuals_.show_as(body, std::move(mesh));
+}
+
+void Recorder::label(BodyId body, std::string text) {
+  if (run_) run_->labels_.set(body, std::move(text));
+}
+
+void Recorder::label(JointId joint, std::string text) {
+  if (run_) run_->labels_.set(joint, std::move(text));
 }
 
 Outcome Recorder::flush(double timeout, bool durable) {

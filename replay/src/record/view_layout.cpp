@@ -12,8 +12,9 @@ namespace {
 // The eye stands this many scene radii to the side, above and in front of the scene's centre: the
 // whole scene in view, its depth visible.
 constexpr double kEyeRight = 0.8, kEyeUp = 0.7, kEyeFront = 1.4;
-// ... and looks this many radii below the centre: what begins high falls and stays low.
-constexpr double kLookDown = 0.4;
+// ... and looks this much of the scene's half height below the centre, but no more than so many
+// radii: what begins high falls and stays low.
+constexpr double kLookDown = 0.8, kLookDownRadii = 0.4;
 
 // Rerun's directions are up 1, down 2, right 3, left 4, forward 5, back 6, for x, y, z.
 void send_axes(rrd::Writer& writer, const Eigen::Vector3d& up) {
@@ -36,7 +37,7 @@ void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderO
   layout.timeline = rrd::kFrameTimeline;
   layout.frames_per_second = static_cast<float>(options.frames_per_second);
   layout.views = {
-      {PLUMB_RR_VIEW_3D, "Scene", "+ /world/**\n+ /contacts/**", 0},
+      {PLUMB_RR_VIEW_3D, "Scene", "+ /world/**\n+ /contacts/**\n+ /labels/**", 0},
       {PLUMB_RR_VIEW_PLOT, "Energy", "+ /plots/energy", 1},
       {PLUMB_RR_VIEW_PLOT, "Stages", "+ /plots/timing", 2},
       {PLUMB_RR_VIEW_PLOT, "Counts", "+ /plots/counts", 3},
@@ -48,7 +49,8 @@ void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderO
       std::abs(up.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d front = aside.cross(up).normalized();
   const Eigen::Vector3d right = up.cross(front);
-  const Eigen::Vector3d target = extent.center - kLookDown * extent.radius * up;
+  const Eigen::Vector3d target =
+      extent.center - std::min(kLookDown * extent.half_height, kLookDownRadii * extent.radius) * up;
   const Eigen::Vector3d eye =
       target + extent.radius * (kEyeRight * right + kEyeUp * up + kEyeFront * front);
   copy_to(eye, layout.eye);

@@ -121,6 +121,7 @@ SceneExtent extent_of(const PhysicsWorld& world, const Frame& frame) {
   if (seen.isEmpty()) return extent;
   extent.center = seen.center();
   extent.radius = seen.diagonal().norm() / 2;
+  extent.half_height = seen.diagonal().dot(up.cwiseAbs()) / 2;
   if (count) extent.body_radius = radius_sum / static_cast<double>(count);
   return extent;
 }

@@ -19,6 +19,7 @@ namespace replay::detail {
 struct SceneExtent {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // [m] of what moves
   double radius = 1;                                 // [m] around it
+  double half_height = 1;                            // [m] half of its size along up
   double body_radius = 1;                            // [m] mean over what moves
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();     // unit, against gravity
   double top = 0;                                    // [m] highest point of what moves, along up

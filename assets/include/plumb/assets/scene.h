@@ -23,6 +23,7 @@
 #include "plumb/assets/mass.h"
 #include "plumb/assets/mesh.h"
 #include "plumb/assets/result.h"
+#include "plumb/compound.h"
 #include "plumb/world.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
@@ -49,19 +50,41 @@ struct SceneMesh {
   std::string path;                       // where that is, seen from the working directory
   std::optional<double> metres_per_unit;  // [m] > 0; unset: what the file says
   std::optional<Axis> up;                 // unset: what the file says
-  // What the mesh collides as. Concave meshes collide as their hull too, therefore the file has to
-  // ask for it by name.
-  enum class Collision { Hull } collision = Collision::Hull;
-  std::size_t max_hull_vertices = kColliderHullVertices;  // 4..1024
-  MassOptions mass;
+  // What the mesh collides as. Concave meshes may collide as their hull too, therefore the file has
+  // to ask for it by name. A surface is for static and kinematic bodies and has no mass.
+  enum class Collision { Hull, Surface } collision = Collision::Hull;
+  std::size_t max_hull_vertices = kColliderHullVertices;  // 4..1024, of a hull
+  MassOptions mass;                                       // of a hull
   int line = 0;  // where it stands in the file; 0: it was made by code
 };
 
+// Terrain: rows of heights over a grid, written in the scene or in a file of numbers.
+struct SceneHeightfield {
+  std::string name;
+  std::string file;  // as written: relative to the folder of the scene; empty: `heights` holds them
+  std::string path;  // where that is, seen from the working directory
+  std::array<double, 2> spacing{1, 1};  // [m] > 0 between samples along x and z
+  double height_scale = 1;              // [m] finite, height of a 1
+  std::size_t samples_x = 0;            // of `heights`
+  std::vector<double> heights;          // x running first, NaN: a hole
+  int line = 0;
+};
+
+// One part of a compound collider.
+struct SceneChild {
+  CompoundGeometry::Child child;  // its shape is not used if `mesh` is named
+  std::string mesh;               // name of a SceneMesh that collides as its hull, or empty
+  int line = 0;
+};
+
 struct SceneCollider {
-  Collider collider;              // its shape is not used if `mesh` is named
-  std::string mesh;               // name of a SceneMesh, or empty
-  std::string material;           // name it came from; empty: written out in `collider`
-  std::optional<double> density;  // [kg/m^3] unset: of the mesh, or Collider's default
+  Collider collider;        // of its shape only what the named parts below do not give: rounding of
+                            // a hull, scale of a surface
+  std::string mesh;         // name of a SceneMesh, or empty
+  std::string heightfield;  // name of a SceneHeightfield, or empty
+  std::vector<SceneChild> children;  // of a compound, else empty
+  std::string material;              // name it came from; empty: written out in `collider`
+  std::optional<double> density;     // [kg/m^3] unset: of the mesh, or Collider's default
   int line = 0;
 };
 
@@ -88,6 +111,29 @@ struct SceneBody {
   int line = 0;
 };
 
+// The name that stands for the world itself where a joint names a body.
+inline constexpr std::string_view kWorldName = "world";
+
+// Where a joint takes hold of one of its bodies: at a frame of that body, or at a place of the
+// world as the bodies stand when the scene begins.
+struct SceneJointSide {
+  std::string body;                // name, of a copy "name[3]"; empty: the world itself
+  std::optional<LocalPose> frame;  // in the body frame; if set, `anchor` is not used
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  // [m] world
+};
+
+struct SceneJoint {
+  std::string name;
+  SceneJointSide a, b;
+  // World axes of the frames that are given by an anchor.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Joint joint;  // without bodies, frames and coupled joints, which are given by name
+  // Lengths of distance, rope and spring joints: whether they are as the scene begins.
+  bool length_as_placed = false;
+  std::string first, second;  // names of the joints that a gear, or rack and pinion, couples
+  int line = 0;
+};
+
 struct Scene {
   std::string source;  // the file, for error texts
   std::string name;
@@ -96,16 +142,20 @@ struct Scene {
   WorldSettings settings;
   std::vector<SceneMaterial> materials;
   std::vector<SceneMesh> meshes;
+  std::vector<SceneHeightfield> heightfields;
   std::vector<SceneBody> bodies;
+  std::vector<SceneJoint> joints;
 
   [[nodiscard]] std::size_t body_count() const;  // with all copies
+  // Null if there is none of that name.
   [[nodiscard]] const SceneMesh* find_mesh(std::string_view name) const;
+  [[nodiscard]] const SceneHeightfield* find_heightfield(std::string_view name) const;
 };
 
-// `name` stands for the file in error texts; meshes are looked for in `folder`.
+// `name` stands for the file in error texts; meshes and heightfields are looked for in `folder`.
 Result<Scene> parse_scene(std::string_view text, const std::string& name,
                           const std::string& folder = ".");
-// Also checks that the mesh files are there.
+// Also checks that the files of meshes and heightfields are there.
 Result<Scene> load_scene(const std::string& path);
 // The text of a scene file that describes the same scene. Everything is written out; numbers come
 // back with the same bits.
@@ -127,20 +177,28 @@ struct SceneInstanceBody {
 struct SceneInstanceMesh {
   std::string name;
   TriangleMesh mesh;                         // [m] mesh frame
-  std::shared_ptr<const HullGeometry> hull;  // what it collides as
+  std::shared_ptr<const HullGeometry> hull;  // what it collides as; null: the surface itself
   double hull_excess =
       0;  // volume of the hull over that of the mesh, minus 1; 0 if the mesh has none
+};
+
+struct SceneInstanceJoint {
+  std::string name;
+  JointId id;
 };
 
 struct SceneInstance {
   std::vector<SceneInstanceBody>
       bodies;  // in the order of the file; user_data of a body is its index
-  std::vector<SceneInstanceMesh> meshes;  // those that bodies use
-  std::vector<std::string> notes;  // worth knowing: concave meshes that collide as their hull
+  std::vector<SceneInstanceJoint> joints;  // the same for joints
+  std::vector<SceneInstanceMesh> meshes;   // those that bodies use
+  // Worth knowing: concave meshes that collide as their hull, surfaces with open seams.
+  std::vector<std::string> notes;
   std::map<std::string, std::size_t, std::less<>> index_of;  // name to index in `bodies`
 
   // Null if there is no such name.
   [[nodiscard]] BodyId find(std::string_view name) const;
+  [[nodiscard]] JointId find_joint(std::string_view name) const;
 };
 
 // Builds the scene in the world and gives the world its settings. On an error the world is left

@@ -37,7 +37,7 @@ struct RecorderOptions {
   int rows_per_chunk = 30;        // [steps] >= 1 kept back and written as one piece
   double frames_per_second = 60;  // [1/s] > 0, the viewer's playback
 
-  bool visuals = true;            // shapes in 3D
+  bool visuals = true;            // shapes, joints and labels in 3D
   bool contacts = true;           // contact points and normals, each arrow scaled by its impulse
   bool body_states = true;        // exact states of all moving bodies, for a diff by name
   bool plots = true;              // energies, counts, stage timings (WorldSettings::profiling)
@@ -77,6 +77,10 @@ class Recorder final : public StepObserver {
   // Draw a body as a mesh instead of its colliders. Bodies with the same mesh share it. To be
   // called before attach; for a body created later, before the next step.
   void show_as(BodyId body, std::shared_ptr<const VisualMesh> mesh);
+
+  // Shows a text beside a body, or where a joint holds its bodies. To be called as show_as.
+  void label(BodyId body, std::string text);
+  void label(JointId joint, std::string text);
 
   // Hands over what is kept back, waits until it is written; durable: until it is on the disk.
   Outcome flush(double timeout = 10, bool durable = false);  // [s]
