@@ -165,6 +165,7 @@ Hit cast_shape(const CollisionShape& shape, const Ray& ray) {
 
 bool cast_ray(const CollisionShape& shape, NumRotation q, NumVec origin, NumVec direction,
               Num max_fraction, NumRayHit& hit) {
+  if (has_parts(shape.type)) return cast_ray_parts(shape, q, origin, direction, max_fraction, hit);
   const NumRotation to_shape = conjugate(q);
   const Hit found = cast_shape(shape, {rotate(to_shape, origin), rotate(to_shape, direction)});
   if (found.outcome == Outcome::Miss) return false;
@@ -179,8 +180,6 @@ bool cast_ray(const CollisionShape& shape, NumRotation q, NumVec origin, NumVec 
 
 bool cast_ray(const CollisionShape& shape, const Transform& placement, Vec origin, Vec direction,
               Real max_fraction, RayHit& hit) {
-  if (has_parts(shape.type))
-    return cast_ray_parts(shape, placement, origin, direction, max_fraction, hit);
   const NumRotation q =
       normalized(NumRotation{placement.q.x, placement.q.y, placement.q.z, placement.q.w});
   NumRayHit found;

@@ -22,7 +22,7 @@ bool collide_deepest_part(const CollisionShape& a, const Transform& xa, const Co
 // As closest_points() and cast_ray(). A surface is hit from its front only; it has no inside.
 Proximity closest_parts(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
                         const Transform& xb);
-bool cast_ray_parts(const CollisionShape& shape, const Transform& placement, Vec origin,
-                    Vec direction, Real max_fraction, RayHit& hit);
+bool cast_ray_parts(const CollisionShape& shape, NumRotation q, NumVec origin, NumVec direction,
+                    Num max_fraction, NumRayHit& hit);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision/collide.h"
+#include "collision/collide_parts.h"
 #include "collision/core_support.h"
 #include "collision/gjk.h"
 
@@ -66,11 +67,26 @@ Gap inside_gap(const Placed& a, const Placed& b, NumVec guess) {
   return gap;
 }
 
+// Where a shape has parts: the nearest of them. A surface has no inside, so that what overlaps it
+// is as deep as its contacts say.
+Gap gap_of_parts(const Placed& a, const Placed& b, NumVec guess) {
+  const auto placement = [&](const Placed& x) {
+    const NumVec p = x.p - a.p;
+    return Transform{cast<Real>(p), Rotation{static_cast<Real>(x.q.x), static_cast<Real>(x.q.y),
+                                             static_cast<Real>(x.q.z), static_cast<Real>(x.q.w)}};
+  };
+  const Proximity near = closest_parts(a.shape, placement(a), b.shape, placement(b));
+  if (!(near.distance > Real(0))) return inside_gap(a, b, guess);
+  return {static_cast<Num>(near.distance), a.p + to_num(near.on_a), a.p + to_num(near.on_b),
+          to_num(near.normal)};
+}
+
 }  // namespace
 
 Gap gap_between(const Placed& a, const Placed& b, NumVec guess) {
   if (is_plane(a) && is_plane(b))
     return {std::numeric_limits<Num>::infinity(), a.p, b.p, NumVec{0, 1, 0}};
+  if (has_parts(a.shape.type) || has_parts(b.shape.type)) return gap_of_parts(a, b, guess);
   if (is_plane(a)) return from_plane(a, b);
   if (is_plane(b)) {
     const Gap gap = from_plane(b, a);
@@ -85,6 +101,8 @@ Gap gap_between(const Placed& a, const Placed& b, NumVec guess) {
 
 bool shapes_overlap(const Placed& a, const Placed& b) {
   if (is_plane(a) && is_plane(b)) return false;
+  if (has_parts(a.shape.type) || has_parts(b.shape.type))
+    return gap_of_parts(a, b, b.p - a.p).distance <= Num(0);
   if (is_plane(a)) return from_plane(a, b).distance <= Num(0);
   if (is_plane(b)) return from_plane(b, a).distance <= Num(0);
   const GjkResult cores = distance_of_cores(a, b, b.p - a.p);

@@ -1,7 +1,13 @@
 #include "collision/time_of_impact.h"
 
+#include <limits>
+
 #include "collision/core_support.h"
+#include "collision/gjk.h"
 #include "collision/shape_gap.h"
+#include "collision/surface/composite_shape.h"
+#include "collision/surface/heightfield_surface.h"
+#include "collision/surface/mesh_surface.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -25,7 +31,12 @@ class Mover {
     const CollisionShape& shape = swept.shape;
     radius_ = static_cast<Num>(shape.radius);
     if (is_plane()) return;
-    core_size_ = static_cast<Num>(bounding_radius(shape)) - radius_;
+    if (swept.triangle != nullptr) {
+      radius_ = 0;
+      for (const NumVec& v : swept.triangle->corner) core_size_ = std::max(core_size_, length(v));
+    } else {
+      core_size_ = static_cast<Num>(bounding_radius(shape)) - radius_;
+    }
     const Num offset = length(swept.p);
     // Half a rounding of single precision must not make a point out of a sphere's centre.
     reach_ = offset + std::max(core_size_, Num(0));
@@ -51,11 +62,17 @@ class Mover {
     return dot(n, origin()) + static_cast<Num>(swept_.shape.offset);
   }
   [[nodiscard]] NumVec origin() const { return centre_ + arm_; }
+  [[nodiscard]] NumVec centre() const { return centre_; }
   [[nodiscard]] NumRotation rotation() const { return q_; }
   // Farthest point of the core, from the body's centre.
   [[nodiscard]] NumVec from_centre(NumVec d) const {
-    return rows_ * core_support(swept_.shape, transpose_times(rows_, d)) + arm_;
+    return rows_ * local_support(transpose_times(rows_, d)) + arm_;
   }
+  [[nodiscard]] bool is_triangle() const { return swept_.triangle != nullptr; }
+  // Of a triangle, in the world.
+  [[nodiscard]] NumVec front() const { return rows_ * swept_.triangle->normal; }
+  [[nodiscard]] Num radius() const { return radius_; }
+  [[nodiscard]] Num core_size() const { return std::max(core_size_, Num(0)); }
 
   // At least the largest n . x over the shape after a further time u.
   [[nodiscard]] Num highest_after(NumVec n, Num u) const {
@@ -92,11 +109,18 @@ class Mover {
     const auto extent = [&](NumVec d) {
       const NumVec local = transpose_times(rows, d);
       const Num middle = dot(d, swept_.p);
-      return std::max(std::abs(middle + dot(local, core_support(swept_.shape, local))),
-                      std::abs(middle + dot(local, core_support(swept_.shape, -local))));
+      return std::max(std::abs(middle + dot(local, local_support(local))),
+                      std::abs(middle + dot(local, local_support(-local))));
     };
     const Num e1 = extent(t1), e2 = extent(t2);
     return std::min(reach_, std::sqrt(e1 * e1 + e2 * e2));
+  }
+
+  [[nodiscard]] NumVec local_support(NumVec d) const {
+    if (swept_.triangle == nullptr) return core_support(swept_.shape, d);
+    const NumVec* corner = swept_.triangle->corner;
+    const Num a = dot(corner[0], d), b = dot(corner[1], d), c = dot(corner[2], d);
+    return corner[a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2)];
   }
 
   const SweptShape& swept_;
@@ -123,6 +147,8 @@ class Search {
     guess_ = b_.origin() - a_.origin();
     Look look = look_now();
     result_.first_distance = look.distance;
+    result_.first_normal = look.normal;
+    result_.first_point = look.point;
     if (look.distance < search_.touching) {
       result_.touched = true;
       goal = search_.allowance > Num(0) ? std::min(look.distance - Num(2) * search_.tolerance,
@@ -182,10 +208,30 @@ class Search {
   // Signed distance, with an axis along which the room is just that (to rounding).
   Look look_now() {
     ++result_.looks;
+    if (a_.is_triangle() || b_.is_triangle()) return look_at_triangle();
     const Gap gap = gap_between({a_.shape(), a_.origin(), a_.rotation()},
                                 {b_.shape(), b_.origin(), b_.rotation()}, guess_);
     guess_ = gap.normal;
     return {gap.distance, gap.normal, Num(0.5) * (gap.on_a + gap.on_b)};
+  }
+
+  // A triangle has no inside: what overlaps it is as deep as it reaches below its front.
+  Look look_at_triangle() {
+    const NumVec offset = b_.centre() - a_.centre();
+    const GjkResult cores = gjk_distance([&](NumVec d) { return a_.from_centre(d); },
+                                         [&](NumVec d) { return b_.from_centre(d) + offset; },
+                                         guess_, a_.core_size() + b_.core_size());
+    if (cores.overlap) {
+      const NumVec n = a_.is_triangle() ? a_.front() : -b_.front();
+      guess_ = n;
+      const NumVec on_b = b_.from_centre(-n) + b_.centre();
+      return {room_along(n), n, on_b};
+    }
+    guess_ = cores.normal;
+    const NumVec on_a = cores.on_a + a_.radius() * cores.normal,
+                 on_b = cores.on_b - b_.radius() * cores.normal;
+    return {cores.distance - a_.radius() - b_.radius(), cores.normal,
+            a_.centre() + Num(0.5) * (on_a + on_b)};
   }
 
   // The largest u found up to `longest` with room >= goal throughout [0, u].
@@ -235,6 +281,114 @@ class Search {
   Impact result_;
 };
 
+// ---- shapes made of parts -----------------------------------------------------------------------
+
+// Bounds of all that the convex shape `other` passes over, in the frame of a surface.
+NumBox swept_bounds(const SweptShape& surface, const SweptShape& other,
+                    const ImpactSearch& search) {
+  const Sweep& s = surface.sweep;
+  const Sweep& o = other.sweep;
+  const Num ball = length(other.p) + static_cast<Num>(bounding_radius(other.shape));
+  const Num time = search.end - search.begin;
+  const NumRotation q = normalized(s.rotation_at(search.begin));
+  const NumVec centre = s.centre_at(search.begin);
+  const NumVec from = o.centre_at(search.begin) - centre, to = o.centre_at(search.end) - centre;
+  // What the surface itself does meanwhile, at the place of the other.
+  const Num far = std::max(length(from), length(to)) + ball;
+  const Num moved = length(s.centre_at(search.end) - centre) + time * length(s.bend) +
+                    std::min(time * s.fastest_spin(), Num(2)) * far;
+  const Num room = ball + time * length(o.bend) + moved + std::max(search.touching, Num(0)) +
+                   std::max(search.separation, Num(0)) + search.tolerance;
+  const auto local = [&](NumVec v) {
+    return rotate(conjugate(surface.q), rotate(conjugate(q), v) - surface.p);
+  };
+  const NumVec a = local(from), b = local(to), r{room, room, room};
+  return {min_each(a, b) - r, max_each(a, b) + r};
+}
+
+// The first of all pairs of parts.
+class PartSearch {
+ public:
+  explicit PartSearch(const ImpactSearch& search) : search_(search) {
+    best_.time = search.end;
+    best_.first_distance = std::numeric_limits<Num>::infinity();
+  }
+
+  void search(const SweptShape& a, const SweptShape& b) {
+    if (a.shape.type == ShapeType::Compound) {
+      for_children(a, [&](const SweptShape& child) { search(child, b); });
+    } else if (b.shape.type == ShapeType::Compound) {
+      for_children(b, [&](const SweptShape& child) { search(a, child); });
+    } else if (is_surface(a.shape.type) && is_surface(b.shape.type)) {
+      return;  // never asked about one another
+    } else if (is_surface(a.shape.type)) {
+      for_triangles(a, b, [&](const SweptShape& part) { search_parts(part, b); });
+    } else if (is_surface(b.shape.type)) {
+      for_triangles(b, a, [&](const SweptShape& part) { search_parts(a, part); });
+    } else {
+      search_parts(a, b);
+    }
+  }
+  [[nodiscard]] Impact result() const { return best_; }
+
+ private:
+  template <class Visit>
+  static void for_children(const SweptShape& x, Visit&& visit) {
+    for (const CompoundData::Child& child : x.shape.compound->children) {
+      const Placement placed = to_placement(child.placed);
+      visit({child.shape, x.p + rotate(x.q, placed.p), normalized(x.q * placed.q), x.sweep});
+    }
+  }
+  // Triangles in whose reach the other shape comes from their front.
+  template <class Visit>
+  void for_triangles(const SweptShape& x, const SweptShape& other, Visit&& visit) {
+    if (other.shape.type == ShapeType::HalfSpace) return;
+    const auto middle_of = [&](const SweptShape& s) {
+      return s.sweep.centre_at(search_.begin) + rotate(s.sweep.rotation_at(search_.begin), s.p);
+    };
+    const NumRotation q = normalized(x.sweep.rotation_at(search_.begin) * x.q);
+    const NumVec middle = rotate(conjugate(q), middle_of(other) - middle_of(x));
+    const NumBox box = swept_bounds(x, other, search_);
+    const auto each = [&](const SurfaceTriangle& t) {
+      if (t.height(middle) < Num(0)) return;
+      visit({x.shape, x.p, x.q, x.sweep, &t});
+    };
+    if (x.shape.type == ShapeType::Mesh) {
+      MeshSurface(*x.shape.mesh, cast<Num>(x.shape.scale)).query(box, each);
+    } else {
+      HeightfieldSurface(*x.shape.heightfield).query(box, each);
+    }
+  }
+  void search_parts(const SweptShape& a, const SweptShape& b) {
+    ImpactSearch search = search_;
+    if (best_.status != ImpactStatus::Apart) search.end = best_.time;
+    if (!(search.end > search.begin) && best_.status != ImpactStatus::Apart) {
+      // Met at the very beginning: only who is deepest there is still of interest.
+      search.end = search.begin;
+    }
+    const Impact found = Search(a, b, search).run();
+    if (found.first_distance < best_.first_distance) {
+      best_.first_distance = found.first_distance;
+      best_.first_normal = found.first_normal;
+      best_.first_point = found.first_point;
+    }
+    best_.looks += found.looks;
+    best_.advances += found.advances;
+    best_.touched = best_.touched || found.touched;
+    if (found.status == ImpactStatus::Apart ||
+        (best_.status != ImpactStatus::Apart && !(found.time < best_.time)))
+      return;
+    best_.status = found.status;
+    best_.time = found.time;
+    best_.distance = found.distance;
+    best_.normal = found.normal;
+    best_.point = found.point;
+  }
+
+  const ImpactSearch& search_;
+  Impact best_;
+};
+
 }  // namespace
 
 Impact time_of_impact(const SweptShape& a, const SweptShape& b, const ImpactSearch& search) {
@@ -243,7 +397,10 @@ Impact time_of_impact(const SweptShape& a, const SweptShape& b, const ImpactSear
     apart.time = search.end;
     return apart;
   }
-  return Search(a, b, search).run();
+  if (!has_parts(a.shape.type) && !has_parts(b.shape.type)) return Search(a, b, search).run();
+  PartSearch parts(search);
+  parts.search(a, b);
+  return parts.result();
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -22,12 +22,15 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
+struct SurfaceTriangle;
+
 // A shape that a moving body carries.
 struct SweptShape {
   const CollisionShape& shape;
   NumVec p;       // [m] of the shape, from the centre of its body, in the body's axes
   NumRotation q;  // of the shape in the body
   const Sweep& sweep;
+  const SurfaceTriangle* triangle = nullptr;  // this one of the surface, instead of all of it
 };
 
 struct ImpactSearch {
@@ -56,8 +59,10 @@ struct Impact {
   NumVec normal{0, 1, 0};  // unit, from A to B, then
   NumVec point{0, 0, 0};   // [m] midway between the surfaces, then
   bool touched = false;    // nearer than `touching` at the beginning
-  Num first_distance = 0;  // [m] signed, at the beginning
-  int looks = 0;           // how often the closest points were computed
+  // At the beginning: [m] signed, unit, [m].
+  Num first_distance = 0;
+  NumVec first_normal{0, 1, 0}, first_point{0, 0, 0};
+  int looks = 0;  // how often the closest points were computed
   int advances = 0;
 };
 

@@ -249,7 +249,6 @@ struct Follower {
         if (collider.body == passed || collider.component.is_sensor ||
             !may_meet(world, slot, other))
           return;
-        if (has_parts(own.shape.type) || has_parts(collider.shape.type)) return;
         if (dynamic && mover_of(movers, collider.body) != kNone) {
           mover.fast_others.push_back(other);
           return;

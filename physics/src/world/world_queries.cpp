@@ -197,8 +197,7 @@ void walk_cast(const View& view, const ShapeCast& given, Found&& found) {
     if (impact.status == ImpactStatus::Apart && !(impact.first_distance < Num(0))) return reach;
     FoundHit hit{impact.time, slot, impact.normal, impact.point, impact.distance};
     if (impact.first_distance < Num(0)) {
-      const Gap first = gap_between(placed, own.placed(), -placed.p);
-      hit = {0, slot, first.normal, Num(0.5) * (first.on_a + first.on_b), first.distance};
+      hit = {0, slot, impact.first_normal, impact.first_point, impact.first_distance};
     }
     return reach = std::min(reach, found(hit));
   };

@@ -69,25 +69,25 @@ bool cast_surface(const Surface& surface, NumVec origin, NumVec direction, Num m
 
 }  // namespace
 
-bool cast_ray_parts(const CollisionShape& shape, const Transform& placement, Vec origin,
-                    Vec direction, Real max_fraction, RayHit& hit) {
-  const Placement at = to_placement(placement);
-  const NumRotation back = conjugate(at.q);
-  const NumVec o = rotate(back, cast<Num>(origin) - at.p), d = rotate(back, cast<Num>(direction));
+bool cast_ray_parts(const CollisionShape& shape, NumRotation q, NumVec origin, NumVec direction,
+                    Num max_fraction, NumRayHit& hit) {
+  const NumRotation back = conjugate(q);
+  const NumVec o = rotate(back, origin), d = rotate(back, direction);
   if (!is_finite(o) || !is_finite(d)) return false;
   if (shape.type == ShapeType::Compound) {
     const CompoundData& compound = *shape.compound;
     bool found = false;
     compound.tree.cast(SegmentQuery(o, d), max_fraction, [&](std::uint32_t place, Num largest) {
       const CompoundData::Child& child = compound.children[compound.order[place]];
-      RayHit here;
-      if (!cast_ray(child.shape, placement * child.placed, origin, direction,
-                    static_cast<Real>(largest), here))
+      const Placement placed = to_placement(child.placed);
+      NumRayHit here;
+      if (!cast_ray(child.shape, q * placed.q, origin - rotate(q, placed.p), direction, largest,
+                    here))
         return largest;
       if (found && !(here.fraction < hit.fraction)) return largest;
       found = true;
       hit = here;
-      return static_cast<Num>(here.fraction);
+      return here.fraction;
     });
     return found;
   }
@@ -100,8 +100,7 @@ bool cast_ray_parts(const CollisionShape& shape, const Transform& placement, Vec
                          : cast_surface(HeightfieldSurface(*shape.heightfield), o, d, max_fraction,
                                         fraction, normal);
   if (!found) return false;
-  hit = {static_cast<Real>(fraction),
-         cast<Real>(normalized_or(rotate(at.q, normal), NumVec{0, 1, 0}))};
+  hit = {fraction, normalized_or(rotate(q, normal), NumVec{0, 1, 0})};
   return true;
 }
 
