@@ -162,6 +162,7 @@ void build_joints(WorldState& world) {
                      build_block(world, scratch.blocks[p], scratch.active[scratch.order[p]],
                                  system.pieces[i]);
                });
+  stiffen_taut_joints(world);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

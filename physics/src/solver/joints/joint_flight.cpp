@@ -11,41 +11,13 @@
 #include <cmath>
 
 #include "solver/body_substep.h"
-#include "solver/joints/coordinates.h"
+#include "solver/joints/joint_levers.h"
 #include "solver/joints/joint_scratch.h"
 #include "solver/joints/joint_solver.h"
 #include "solver/joints/joint_tolerances.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
-
-// How easily a body gives way at the end of an arm r across a pull along it.
-struct Lever {
-  Real turn = 0;   // [1/(kg m^2)] about an axis across the arm: the larger of the two
-  Real along = 0;  // [1/kg] of the end of the arm, sideways
-  Real r = 0;      // [m]
-};
-Lever lever_of(const JointBlock& block, int k, Vec arm) {
-  Lever lever;
-  if (!block.moves[k]) return lever;
-  lever.r = length(arm);
-  const Vec& m = block.inverse_mass[k];
-  lever.along = std::max(m.x, std::max(m.y, m.z));
-  if (!(lever.r > Real(0))) return lever;
-  Vec t1, t2;
-  tangent_frame((Real(1) / lever.r) * arm, t1, t2);
-  lever.turn =
-      std::max(dot(t1, block.inverse_inertia[k] * t1), dot(t2, block.inverse_inertia[k] * t2));
-  lever.along += lever.r * lever.r * lever.turn;
-  return lever;
-}
-
-// [rad^2/s^2] that a joint adds to the square of a body's frequency when it is pulled by a force f
-// at the end of an arm, while the body at the other side gives way.
-Real stiffness(Real f, const Lever& body, const Lever& other) {
-  if (!(body.turn > Real(0)) || !(other.along > Real(0))) return Real(0);
-  return f * body.r / (Real(1) / body.turn + body.r * body.r / other.along);
-}
 
 // The group's own substeps within one of the world's.
 int cycles_of(WorldState& world, const JointPiece& piece) {
@@ -55,13 +27,7 @@ int cycles_of(WorldState& world, const JointPiece& piece) {
   for (std::uint32_t i = piece.begin; i < piece.end; ++i) {
     const JointBlock& block = scratch.blocks[i];
     if (block.pairs != 1) continue;  // couplings pass on torques
-    Real pull = 0;
-    for (int k = 0; k < block.held; ++k) {
-      const RowImpulses& l = block.row[k].impulses;
-      const Real both = l.first[kHold] + l.second[kHold];
-      if (is_linear(block.row[k].coordinate)) pull += both * both;
-    }
-    const Real f = std::sqrt(pull) / piece.h;
+    const Real f = pull_of(block, piece.h);
     const int a = block.place[0], b = block.place[1];
     const Vec arm_a = rotate(world.delta[block.body[a]].dq, block.pair[0].arm_a);
     const Vec arm_b = rotate(world.delta[block.body[b]].dq, block.pair[0].arm_b);

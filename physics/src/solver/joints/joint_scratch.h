@@ -25,6 +25,7 @@ struct JointScratch {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> colors;
   std::vector<std::uint8_t> group_anchored;  // per group: it hangs on something, or has axes locked
   std::vector<std::uint32_t> first_joint;    // per dense index: the first block at it
+  std::vector<Symmetric3<Real>> stiffness;   // per dense index [kg m^2], of taut bodies in contact
   bool has_parts = false;                    // some pieces are not whole groups
   std::vector<std::uint32_t> group;          // per dense index: smallest one connected over joints
   std::vector<std::uint8_t> group_touches;   // per group: some body of it touches something

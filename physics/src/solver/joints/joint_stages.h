@@ -7,6 +7,8 @@ struct WorldState;
 
 // Colours the joints that are awake, marks their bodies as held, and fills the blocks.
 void build_joints(WorldState& world);
+// Taut lines that touch something: inertia as rows see it in this step.
+void stiffen_taut_joints(WorldState& world);
 // Groups that touch nothing: the whole substep of their bodies.
 void fly_joint_groups(WorldState& world);
 // The others: impulses of the last substep, then the passes before the drift.

@@ -42,12 +42,30 @@ void add_response(const JointBlock& a, const SystemRow* rows_a, const JointBlock
   }
 }
 
-// Rows that do not act, or that cannot move anything, keep a one on the diagonal and no impulse.
+// What row i could move if no axis of its bodies were locked, at most.
+double largest_response(const JointBlock& block, int i) {
+  double sum = 0;
+  for (int k = 0; k < block.bodies; ++k) {
+    if (!block.moves[k]) continue;
+    const BodyJacobian& J = block.J[i * block.bodies + k];
+    const Vec& m = block.inverse_mass[k];
+    const Symmetric3<Real>& I = block.inverse_inertia[k];
+    sum += static_cast<double>(length_squared(J.linear) * std::max(m.x, std::max(m.y, m.z)) +
+                               length_squared(J.angular) * (I.xx + I.yy + I.zz));
+  }
+  return sum;
+}
+
+// Rows that do not act, or that cannot move anything but by round-off, keep a one on the diagonal
+// and no impulse.
 void make_diagonal(const JointBlock& block, SystemRow* rows, double compliance, SystemBlock& K) {
   K = {};
   add_response(block, rows, block, rows, K);
   for (int i = 0; i < block.rows; ++i) {
-    if (!(K.at[i][i] > 0)) rows[i].acts = false;
+    if (!(K.at[i][i] > joint_tolerance::kUnmoved * largest_response(block, i))) {
+      rows[i].acts = false;
+      for (int j = 0; j < block.rows; ++j) K.at[i][j] = K.at[j][i] = 0;
+    }
     K.at[i][i] = rows[i].acts ? K.at[i][i] * (1 + compliance) + rows[i].give : 1;
     rows[i].size = K.at[i][i];
   }
