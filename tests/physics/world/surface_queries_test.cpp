@@ -26,7 +26,7 @@ struct Grounds {
                             : Shape{SurfaceMesh{made(grid(0, 16, 0, 16, 11, 7, level, true))}};
     const Vector3d corner = kPlace - wide(q) * Vector3d(8, 0, 8);
     add(surface, body_at(at(corner, q), MotionType::Static), with(shape));
-    add(plane, body_at(at(kPlace), MotionType::Static), with(HalfSpace{}));
+    add(plane, body_at(at(kPlace, Quat::Identity()), MotionType::Static), with(HalfSpace{}));
   }
 };
 constexpr double kNear = bar(1e-9, 2e-5);  // [m]
@@ -96,7 +96,8 @@ TEST_P(SurfaceQueries, DistancesAndOverlapsAreThoseOfAPlane) {
     const auto d = grounds.plane.closest_point(box(0.2, 0.3, 0.4), pose, 5);
     ASSERT_TRUE(c.has_value() && d.has_value());
     EXPECT_NEAR(c->distance, d->distance, 10 * kNear);
-    const Pose low = at(place - Vector3d(0, place.y() - kPlace.y() - random.uniform(0.05, 0.6), 0));
+    const Pose low = at(Vector3d(place.x(), kPlace.y() + random.uniform(0.05, 0.6), place.z()),
+                        Quat::Identity());
     std::vector<ColliderId> over, under;
     grounds.surface.overlap_shape(sphere(0.3), low, over);
     grounds.plane.overlap_shape(sphere(0.3), low, under);
@@ -138,7 +139,7 @@ TEST(CompoundQueries, AnswerLikeTheirChildren) {
     }
     ShapeCast cast;
     cast.shape = box(0.1, 0.2, 0.1);
-    cast.start = at(from);
+    cast.start = at(from, Quat::Identity());
     cast.translation = vec(path);
     const auto c = whole.cast_shape(cast), d = apart.cast_shape(cast);
     ASSERT_EQ(c.has_value(), d.has_value()) << i;
@@ -158,9 +159,9 @@ TEST(CompoundQueries, AnswerLikeTheirChildren) {
 // A rod that spins at 25 turns a second while it falls: its tips go 3 m a step.
 TEST(SurfaceContinuous, AFastRodDoesNotTurnIntoAMesh) {
   PhysicsWorld world(no_sleep());
-  add(world, body_at(at({0, 0, 0}), MotionType::Static),
+  add(world, body_at(at(0, 0, 0), MotionType::Static),
       with(SurfaceMesh{made(grid(-20, 20, -20, 20, 20, 20, level, true))}));
-  RigidBody rod = moving(at({0, 0.5, 0}), vec(0, -1, 0));
+  RigidBody rod = moving(at(0, 0.5, 0), vec(0, -1, 0));
   rod.angular_velocity = vec(0, 0, 157);
   const BodyId id = add(world, rod, with(box(1, 0.02, 0.02), material(0.3)));
   double lowest = 1;
