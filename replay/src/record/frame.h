@@ -33,7 +33,9 @@ struct Frame {
   bool has_snapshot = false;  // else what is in it is an older one
   Snapshot snapshot;          // after the step
 
-  [[nodiscard]] Events events() const { return {touches, hits, sensors, sleep, refused, broken}; }
+  [[nodiscard]] Events events() const {
+    return {touches, hits, sensors, {}, sleep, refused, broken};
+  }
 };
 
 }  // namespace replay::detail

@@ -295,8 +295,13 @@ class PieceSolver {
       };
       for (int k = 0; k < count; ++k) {
         const Law& law = laws[k];
-        if (law.soft && (row.laws & 1u << law.part) != 0)
+        const bool acted = (row.laws & 1u << law.part) != 0;
+        if (law.soft && acted) {
           clamped = give(law, law.impulse - law.lack / law.give) || clamped;
+        } else if (!acted && (law.impulse < law.lower || law.impulse > law.upper)) {
+          give(law, law.impulse);  // the bounds have come closer since it was found
+          clamped = true;
+        }
         // A motor that works against a limit or against friction gives all it has.
         if (!law.soft && row.rigid >= 0 && law.part != row.rigid && law.acts()) {
           const Real end = law.lack > Real(0) ? law.lower : law.upper;

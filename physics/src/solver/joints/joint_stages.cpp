@@ -67,27 +67,42 @@ void relax_joints(WorldState& world) {
   for_blocks(world, [&](JointBlock& block) { note_rates(block, world); });
 }
 
-void store_joints(WorldState& world) {
+namespace {
+
+// The remembered impulses belong to a substep of the world's.
+void store_joint(WorldState& world, const JointBlock& block, Real per_substep) {
   const Real per_time = Real(1) / world.dt;
-  for (const JointBlock& block : world.joints.scratch->blocks) {
-    JointMemory& memory = world.joints.info[block.joint].memory;
-    memory.split = block.split;
-    memory.force = per_time * block.force_sum;
-    memory.torque = per_time * block.torque_sum;
-    memory.effort = Real(0);
-    memory.at_lower = memory.at_upper = false;
-    for (int i = 0; i < block.rows; ++i) {
-      memory.rows[i] = block.row[i].impulses;
-      if (i < block.held) continue;
-      const Real* sum = block.row[i].sum;
-      memory.at_lower = memory.at_lower || sum[kLower] > Real(0);
-      memory.at_upper = memory.at_upper || sum[kUpper] > Real(0);
-      if (i == block.held)
-        memory.effort =
-            per_time * (sum[kSpring] + sum[kMotor] + sum[kFriction] + sum[kLower] - sum[kUpper]);
+  JointMemory& memory = world.joints.info[block.joint].memory;
+  memory.split = block.split;
+  memory.force = per_time * block.force_sum;
+  memory.torque = per_time * block.torque_sum;
+  memory.effort = Real(0);
+  memory.at_lower = memory.at_upper = false;
+  for (int i = 0; i < block.rows; ++i) {
+    RowImpulses& kept = memory.rows[i];
+    kept = block.row[i].impulses;
+    for (int p = 0; p < kRowParts; ++p) {
+      kept.first[p] *= per_substep;
+      kept.second[p] *= per_substep;
     }
-    if (block.pairs == 1) memory.angle = block.pair[0].angle;
+    if (i < block.held) continue;
+    const Real* sum = block.row[i].sum;
+    memory.at_lower = memory.at_lower || sum[kLower] > Real(0);
+    memory.at_upper = memory.at_upper || sum[kUpper] > Real(0);
+    if (i == block.held)
+      memory.effort =
+          per_time * (sum[kSpring] + sum[kMotor] + sum[kFriction] + sum[kLower] - sum[kUpper]);
   }
+  if (block.pairs == 1) memory.angle = block.pair[0].angle;
+}
+
+}  // namespace
+
+void store_joints(WorldState& world) {
+  const JointScratch& scratch = *world.joints.scratch;
+  for (const JointPiece& piece : scratch.system.pieces)
+    for (std::uint32_t i = piece.begin; i < piece.end; ++i)
+      store_joint(world, scratch.blocks[i], world.h / piece.h);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail
