@@ -77,7 +77,8 @@ TEST_F(Program, HelpsAndTellsItsVersion) {
     EXPECT_TRUE(says(help, word)) << word << "\n" << help.output;
   const Outcome run_help = plumb("run --help");
   EXPECT_EQ(run_help.code, 0);
-  for (const char* word : {"SCENE", "--output", "--steps", "--dt", "--substeps", "--threads", "--labels"})
+  for (const char* word :
+       {"SCENE", "--output", "--steps", "--dt", "--substeps", "--threads", "--labels"})
     EXPECT_TRUE(says(run_help, word)) << word << "\n" << run_help.output;
   EXPECT_EQ(plumb("--version").code, 0);
   EXPECT_TRUE(says(plumb("--version"), "plumb 0.1.0 ("));
