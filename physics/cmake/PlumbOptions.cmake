@@ -3,7 +3,14 @@ include(GNUInstallDirs)
 
 set(PLUMB_PRECISION f32 CACHE STRING "What plumb::physics is: f32, f32d (double positions) or f64")
 set_property(CACHE PLUMB_PRECISION PROPERTY STRINGS f32 f32d f64)
-set(PLUMB_ALL_PRECISIONS f32 f32d f64)
+# All three live side by side in one program; a build that needs fewer, such as one under a
+# sanitizer, names them.
+set(PLUMB_ALL_PRECISIONS "f32;f32d;f64" CACHE STRING "Which precisions are built and tested")
+foreach(precision IN LISTS PLUMB_ALL_PRECISIONS)
+  if(NOT precision MATCHES "^(f32|f32d|f64)$")
+    message(FATAL_ERROR "PLUMB_ALL_PRECISIONS names '${precision}'. There are f32, f32d and f64.")
+  endif()
+endforeach()
 if(NOT PLUMB_PRECISION IN_LIST PLUMB_ALL_PRECISIONS)
   message(FATAL_ERROR
     "PLUMB_PRECISION is '${PLUMB_PRECISION}'. Give one of: ${PLUMB_ALL_PRECISIONS}.")

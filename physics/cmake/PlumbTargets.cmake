@@ -14,6 +14,19 @@ function(plumb_glob out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
+# Reads the named system headers once for all files of a target: Eigen's are most of what a file
+# costs to compile. Every file still includes what it uses; the preset `clang` builds without.
+function(plumb_precompile target)
+  foreach(header IN LISTS ARGN)
+    target_precompile_headers(${target} PRIVATE
+                              "$<$<COMPILE_LANGUAGE:CXX>:<${header}$<ANGLE-R>>")
+  endforeach()
+  # What ccache needs to see through a precompiled header.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+    $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
+endfunction()
+
 # A library of Plumb: plumb_<name>, known as plumb::<name> here and in the installed package.
 # Without sources yet it is an interface library, so that the rest still configures.
 #   plumb_library(<name> COMPONENT <folder> SOURCES ...)
@@ -26,6 +39,8 @@ function(plumb_library name)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:plumb_warnings>)
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/${arg_COMPONENT}/src")
+    plumb_precompile(${target} Eigen/Core Eigen/Geometry algorithm cmath functional memory optional
+                     span string variant vector)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)

@@ -22,14 +22,7 @@ function(plumb_test_program target)
   if(arg_LIBRARIES)
     list(APPEND headers Eigen/Core Eigen/Geometry)
   endif()
-  foreach(header IN LISTS headers)
-    target_precompile_headers(${target} PRIVATE
-                              "$<$<COMPILE_LANGUAGE:CXX>:<${header}$<ANGLE-R>>")
-  endforeach()
-  # What ccache needs to see through a precompiled header.
-  target_compile_options(${target} PRIVATE
-    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
-    $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
+  plumb_precompile(${target} ${headers})
   gtest_discover_tests(${target} TEST_PREFIX "${arg_PREFIX}" DISCOVERY_MODE PRE_TEST
                        DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${PLUMB_TEST_TIMEOUT})
 endfunction()

@@ -27,6 +27,8 @@
 #include "plumb/rigid_body.h"
 #include "plumb/settings.h"
 #include "plumb/snapshot.h"
+#include "plumb/status.h"
+#include "plumb/world_image.h"
 
 namespace plumb::inline PLUMB_ABI {
 
@@ -152,6 +154,8 @@ class PhysicsWorld {
   // What one sensor sees: its part of Events::overlaps.
   [[nodiscard]] std::span<const SensorOverlap> overlaps_of(ColliderId sensor) const;
   [[nodiscard]] EnergyReport energy() const;
+  // All of the above lists in a few block copies, to be read on another thread.
+  void copy_image(WorldImage& image) const;
 
   // --- queries ---------------------------------------------------------------------------------
   // What holds for all of them stands in plumb/queries.h. Lists are cleared first.

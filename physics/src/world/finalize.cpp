@@ -43,6 +43,7 @@ void quarantine(WorldState& world, std::uint32_t body) {
   world.bodies.momentum[dense] = {};
   world.bodies.mass[dense] = {};
   info.disabled = true;
+  world.facts.forget();
   world.gathering.quarantined.push_back({{body, info.generation}});
   ++world.report.quarantined;
   world.bodies.rest(body);

@@ -5,9 +5,32 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-// Notes a call when somebody observes the world. `fill` appends its numbers.
+// Whether the call leaves alone all that an image takes for granted (BodyFacts).
+constexpr bool changes_motion_alone(InputKind kind) {
+  switch (kind) {
+    case InputKind::SetPose:
+    case InputKind::SetLinearVelocity:
+    case InputKind::SetAngularVelocity:
+    case InputKind::ApplyForce:
+    case InputKind::ApplyForceAt:
+    case InputKind::ApplyForceAtBodyPoint:
+    case InputKind::ApplyTorque:
+    case InputKind::ApplyImpulse:
+    case InputKind::ApplyImpulseAt:
+    case InputKind::ApplyImpulseAtBodyPoint:
+    case InputKind::ApplyAngularImpulse:
+    case InputKind::SetAwake:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// To be called by all that changes a world from outside. Notes it when somebody observes the world.
+// `fill` appends its numbers.
 template <class Fill>
 void note_input(WorldState& world, InputKind kind, std::uint64_t target, Fill&& fill) {
+  if (!changes_motion_alone(kind)) world.facts.forget();
   if (world.observers.empty()) return;
   InputRecord record;
   record.kind = kind;

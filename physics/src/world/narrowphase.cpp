@@ -298,6 +298,7 @@ void take_findings(WorldState& world) {
     return false;
   });
   world.contacts.swap(world.new_contacts);
+  world.contacts_fit = world.pairs.changes();
 }
 
 void report_contacts(WorldState& world) {

@@ -16,6 +16,7 @@ void PairStore::insert_sorted(const std::vector<Pair>& added) {
   std::merge(pairs_.begin(), pairs_.end(), added.begin(), added.end(), merged_.begin(),
              [](const Pair& a, const Pair& b) { return a.key < b.key; });
   pairs_.swap(merged_);
+  ++changes_;
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

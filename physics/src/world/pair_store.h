@@ -99,12 +99,16 @@ class PairStore {
       ++kept;
     }
     pairs_.resize(kept);
+    ++changes_;
   }
+  // Grows whenever places in the list may have moved.
+  [[nodiscard]] std::uint64_t changes() const { return changes_; }
   [[nodiscard]] const Pair* find(std::uint64_t key) const;  // null: there is none
   [[nodiscard]] bool contains(std::uint64_t key) const { return find(key) != nullptr; }
 
  private:
   std::vector<Pair> pairs_, merged_;
+  std::uint64_t changes_ = 1;
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,63 +1,20 @@
 // The digest of a world's state: what two runs are compared by.
-#include <bit>
-
+#include "world/digest.h"
 #include "world/joint_world.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
 
-// Four chains of multiply-rotate mixing [Steele 2014], taken in turn, so that one word need not
-// wait for the last; two single-precision numbers share a word.
-class Digest {
- public:
-  void add(std::uint64_t word) {
-    std::uint64_t& chain = chains_[count_++ % kChains];
-    chain = std::rotl(chain ^ (word * 0x9e3779b97f4a7c15u), 29) * 0xbf58476d1ce4e5b9u;
-  }
-  void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
-  void add(float a, float b) {
-    add(std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b));
-  }
-  template <class T, std::size_t N>
-  void add(const T (&values)[N]) {
-    if constexpr (sizeof(T) == sizeof(float)) {
-      for (std::size_t i = 0; i + 1 < N; i += 2) add(values[i], values[i + 1]);
-      if constexpr (N % 2 == 1) add(values[N - 1], 0.0f);
-    } else {
-      for (const T v : values) add(v);
-    }
-  }
-  [[nodiscard]] std::uint64_t value() const {
-    std::uint64_t all = count_;
-    for (const std::uint64_t chain : chains_) {
-      std::uint64_t z = all ^ chain;
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-      all = z ^ (z >> 31);
-    }
-    return all;
-  }
-
- private:
-  static constexpr std::size_t kChains = 4;
-  std::uint64_t chains_[kChains] = {0x2545f4914f6cdd1du, 0x9e6c63d0676a9a99u, 0xd1342543de82ef95u,
-                                    0xf1357aea2e62a9c5u};
-  std::uint64_t count_ = 0;
-};
-
-void add_bodies(Digest& digest, const WorldState& world) {
-  for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
-    const BodyInfo& info = world.bodies.info[slot];
+// rest: also how long the bodies have been at rest, which decides when they sleep.
+void add_bodies(Digest& digest, const WorldState& world, bool rest) {
+  const BodyStore& bodies = world.bodies;
+  for (std::uint32_t slot = 0; slot < bodies.info.size(); ++slot) {
+    const BodyInfo& info = bodies.info[slot];
     if (!info.alive) continue;
-    const BodyPose& pose = world.bodies.pose[info.dense];
-    const BodyVelocity& u = world.bodies.velocity[info.dense];
-    const Vec L = world.bodies.momentum[info.dense].L;
-    digest.add(std::uint64_t{info.generation} << 32 | slot);
-    digest.add({pose.x.x, pose.x.y, pose.x.z});
-    digest.add({pose.q.x, pose.q.y, pose.q.z, pose.q.w, u.v.x, u.v.y, u.v.z, u.w.x, u.w.y, u.w.z,
-                L.x, L.y, L.z, info.rest_time});
-    digest.add(std::uint64_t{world.bodies.is_awake(slot)} << 1 | std::uint64_t{info.disabled});
+    add_motion(digest, slot, info, bodies.is_awake(slot), bodies.pose[info.dense],
+               bodies.velocity[info.dense], bodies.momentum[info.dense].L);
+    if (rest) digest.add(static_cast<double>(info.rest_time));
   }
 }
 
@@ -82,7 +39,7 @@ void add_contacts(Digest& digest, const WorldState& world) {
 
 std::uint64_t PhysicsWorld::state_hash() const {
   detail::Digest digest;
-  detail::add_bodies(digest, *state_);
+  detail::add_bodies(digest, *state_, true);
   detail::add_contacts(digest, *state_);
   if (!state_->joints.empty()) digest.add(detail::digest_of_joints(*state_));
   return digest.value();
@@ -90,7 +47,7 @@ std::uint64_t PhysicsWorld::state_hash() const {
 
 std::uint64_t PhysicsWorld::motion_hash() const {
   detail::Digest digest;
-  detail::add_bodies(digest, *state_);
+  detail::add_bodies(digest, *state_, false);
   return digest.value();
 }
 

@@ -1,32 +1,16 @@
 // Reading a world: states, contacts, energy. Queries: world_queries.cpp.
-#include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
+#include "world/body_reading.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
 
-Pose pose_of(const WorldState& world, const BodyInfo& info) {
-  const BodyPose& inner = world.bodies.pose[info.dense];
-  const Rotation R_WB = inner.q * conjugate(info.R_BP);
-  Pose pose;
-  pose.orientation = to_public(R_WB);
-  pose.position = to_public_position(inner.x - cast<PosReal>(rotate(R_WB, info.center_B)));
-  return pose;
-}
-
-BodyState state_of(const WorldState& world, std::uint32_t slot) {
+BodyState state_in(const WorldState& world, std::uint32_t slot) {
   const BodyInfo& info = world.bodies.info[slot];
-  BodyState state;
-  state.id = {slot, info.generation};
-  state.type = info.type;
-  state.awake = world.bodies.is_awake(slot);
-  state.pose = pose_of(world, info);
-  state.linear_velocity = to_public(world.bodies.velocity[info.dense].v);
-  state.angular_velocity = to_public(world.bodies.velocity[info.dense].w);
-  state.user_data = info.user_data;
-  return state;
+  return state_of(slot, info, world.bodies.is_awake(slot), world.bodies.pose[info.dense],
+                  world.bodies.velocity[info.dense]);
 }
 
 void write_contact(const WorldState& world, const Pair& pair, const Contact& from,
@@ -71,11 +55,9 @@ ContactPoint* write_points(const WorldState& world, const Pair& pair,
       world.bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense;
   const PosVec origin = world.bodies.pose[reference].x;
   for (const Contact& from : contacts_of(pair, store)) {
-    for (int i = 0; i < from.manifold.count; ++i, ++out) {
-      out->position = to_public_position(origin + cast<PosReal>(from.manifold.points[i].position));
-      out->normal = to_public(from.manifold.normal);
-      out->normal_impulse = from.step_normal_impulse[i];
-    }
+    for (int i = 0; i < from.manifold.count; ++i, ++out)
+      *out = contact_point(origin, from.manifold.points[i].position, from.manifold.normal,
+                           from.step_normal_impulse[i]);
   }
   return out;
 }
@@ -94,10 +76,12 @@ bool PhysicsWorld::is_valid(ColliderId collider) const {
          info[collider.index].generation == collider.generation;
 }
 BodyState PhysicsWorld::state(BodyId body) const {
-  return is_valid(body) ? detail::state_of(*state_, body.index) : BodyState{};
+  return is_valid(body) ? detail::state_in(*state_, body.index) : BodyState{};
 }
 Pose PhysicsWorld::pose(BodyId body) const {
-  return is_valid(body) ? detail::pose_of(*state_, state_->bodies.info[body.index]) : Pose{};
+  if (!is_valid(body)) return {};
+  const detail::BodyInfo& info = state_->bodies.info[body.index];
+  return detail::pose_of(info, state_->bodies.pose[info.dense]);
 }
 Vec3 PhysicsWorld::linear_velocity(BodyId body) const {
   if (!is_valid(body)) return Vec3::Zero();
@@ -181,11 +165,11 @@ void PhysicsWorld::copy_body_states(std::vector<BodyState>& out) const {
   out.resize(state_->bodies.alive_count);
   BodyState* next = out.data();
   for (std::uint32_t slot = 0; slot < state_->bodies.info.size(); ++slot)
-    if (state_->bodies.info[slot].alive) *next++ = detail::state_of(*state_, slot);
+    if (state_->bodies.info[slot].alive) *next++ = detail::state_in(*state_, slot);
 }
 void PhysicsWorld::copy_moved_body_states(std::vector<BodyState>& out) const {
   out.clear();
-  for (const std::uint32_t slot : state_->moved) out.push_back(detail::state_of(*state_, slot));
+  for (const std::uint32_t slot : state_->moved) out.push_back(detail::state_in(*state_, slot));
 }
 void PhysicsWorld::copy_contacts(std::vector<ContactState>& out) const {
   out.clear();
@@ -223,17 +207,9 @@ EnergyReport PhysicsWorld::energy() const {
   const detail::BodyStore& bodies = state_->bodies;
   for (const detail::BodyInfo& info : bodies.info) {
     if (!info.alive || info.type != MotionType::Dynamic || info.disabled) continue;
-    const detail::BodyMass& m = bodies.mass[info.dense];
-    const double mass = info.properties.mass;
-    const Eigen::Vector3d v = detail::to_public(bodies.velocity[info.dense].v).cast<double>();
-    const Eigen::Vector3d w = detail::to_public(bodies.velocity[info.dense].w).cast<double>();
-    const Eigen::Vector3d L = detail::to_public(bodies.momentum[info.dense].L).cast<double>();
-    const Eigen::Vector3d x = detail::to_public_position(bodies.pose[info.dense].x).cast<double>();
-    sum.kinetic_linear += 0.5 * mass * v.squaredNorm();
-    sum.kinetic_angular += 0.5 * w.dot(L);
-    sum.potential -= mass * static_cast<double>(m.gravity_scale) * g.dot(x);
-    sum.momentum += mass * v;
-    sum.angular_momentum += L + mass * x.cross(v);
+    const double scale = static_cast<double>(bodies.mass[info.dense].gravity_scale);
+    detail::add_energy(sum, info.properties.mass, scale * g, bodies.pose[info.dense],
+                       bodies.velocity[info.dense], bodies.momentum[info.dense].L);
   }
   return sum;
 }

@@ -15,6 +15,7 @@
 #include "world/contact_data.h"
 #include "world/joint_store.h"
 #include "world/pair_store.h"
+#include "world/world_image.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -87,7 +88,8 @@ struct WorldState {
   AabbTree static_tree, moving_tree;
   std::vector<WorldAabb> reach;  // per collider slot: all its places in the next step
   PairStore pairs;
-  std::vector<Contact> contacts;  // of the awake pairs, in their order
+  std::vector<Contact> contacts;   // of the awake pairs, in their order
+  std::uint64_t contacts_fit = 0;  // pairs.changes() for which Contact::pair holds
   JointStore joints;
   ContactData contact_data;
   std::vector<SensorOverlap> overlaps;  // after the last step, ascending
@@ -132,6 +134,7 @@ struct WorldState {
 
   // Events are gathered from the end of one step to the end of the next, then published together.
   EventLists gathering, published;
+  mutable FactsCache facts;  // for images
   std::vector<OverlapChange> overlap_changes;
   std::vector<SensorOverlap> new_overlaps;
   std::vector<std::uint32_t> moved;  // bodies moved by the last step, ascending slots

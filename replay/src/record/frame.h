@@ -9,6 +9,7 @@
 #include "plumb/report.h"
 #include "plumb/rigid_body.h"
 #include "plumb/snapshot.h"
+#include "plumb/world_image.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
@@ -16,8 +17,11 @@ namespace replay::detail {
 struct Frame {
   std::uint64_t number = 0;              // of the last step
   double time = 0;                       // [s] after it
+  WorldImage image;                      // after it; the next four are read from it
   std::vector<BodyState> bodies;         // all, in order of their index
   std::vector<ContactPoint> contacts;    // of touching pairs
+  EnergyReport energy;                   //
+  std::uint64_t state_hash = 0;          //
   std::vector<InputRecord> inputs;       // given before the step
   std::vector<HitEvent> hits;            // what happened in it
   std::vector<ContactEvent> touches;     //
@@ -26,8 +30,6 @@ struct Frame {
   std::vector<QuarantineEvent> refused;  //
   std::vector<JointBreakEvent> broken;   //
   StepReport report;
-  EnergyReport energy;
-  std::uint64_t state_hash = 0;
   bool profiled = false;      // the report has the stages' times
   bool moved = false;         // false: the step was refused, or of no length
   bool has_snapshot = false;  // else what is in it is an older one

@@ -12,7 +12,7 @@ constexpr std::size_t kWakeAt = 8, kFullAt = 64;
 
 }  // namespace
 
-FrameQueue::FrameQueue(std::function<void(const Frame&)> encode)
+FrameQueue::FrameQueue(std::function<void(Frame&)> encode)
     : encode_(std::move(encode)), thread_([this] { run(); }) {}
 
 FrameQueue::~FrameQueue() {

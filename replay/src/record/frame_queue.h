@@ -21,7 +21,7 @@ namespace replay::detail {
 class FrameQueue {
  public:
   // `encode` is called on a thread of its own, once for each frame, in order.
-  explicit FrameQueue(std::function<void(const Frame&)> encode);
+  explicit FrameQueue(std::function<void(Frame&)> encode);
   ~FrameQueue();  // after what is queued was encoded
   FrameQueue(const FrameQueue&) = delete;
   FrameQueue& operator=(const FrameQueue&) = delete;
@@ -36,7 +36,7 @@ class FrameQueue {
  private:
   void run();
 
-  std::function<void(const Frame&)> encode_;
+  std::function<void(Frame&)> encode_;
   std::mutex mutex_;
   std::condition_variable work_, room_;
   std::deque<std::unique_ptr<Frame>> waiting_;

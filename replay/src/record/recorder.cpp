@@ -23,15 +23,15 @@
 namespace plumb::inline PLUMB_ABI {
 namespace replay {
 
-// The stepping thread copies each step into a frame; another thread encodes the frames and hands
-// them to the writer. What is encoded with the world at hand, because bodies came or went, waits
-// until the encoder has nothing left to do.
+// The stepping thread copies each step into a frame; another thread encodes the
+// frames and hands them to the writer. What is encoded with the world at hand,
+// because bodies came or went, waits until the encoder has nothing left to do.
 class Recorder::Run {
  public:
   explicit Run(const RecorderOptions& options)
       : options_(options),
         text_log_(options.event_lines_per_step),
-        queue_([this](const detail::Frame& frame) { encode(frame, nullptr); }) {}
+        queue_([this](detail::Frame& frame) { encode(frame, nullptr); }) {}
 
   Outcome open();
   void attach(const PhysicsWorld& world);
@@ -49,10 +49,11 @@ class Recorder::Run {
  private:
   void copy(const StepView& view, detail::Frame& frame);
   // `world`: where it may be looked at; null on the encoding thread.
-  void encode(const detail::Frame& frame, const PhysicsWorld* world);
+  void encode(detail::Frame& frame, const PhysicsWorld* world);
+  void read_image(detail::Frame& frame) const;
   void encode_scene(const detail::Frame& frame, const PhysicsWorld* world);
   void send();
-  [[nodiscard]] bool scene_changed(const detail::Frame& frame) const;
+  [[nodiscard]] bool scene_changed(const detail::Frame& frame, const PhysicsWorld& world) const;
 
   RecorderOptions options_;
   detail::ReplayTables replay_;
@@ -148,8 +149,9 @@ void Recorder::Run::attach(const PhysicsWorld& world) {
   if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
 }
 
-// Whether something was done that changes what is to be drawn, or where what never moves stands.
-bool Recorder::Run::scene_changed(const detail::Frame& frame) const {
+// Whether something was done that changes what is to be drawn, or where what
+// never moves stands.
+bool Recorder::Run::scene_changed(const detail::Frame& frame, const PhysicsWorld& world) const {
   if (!frame.broken.empty()) return true;
   for (const InputRecord& input : frame.inputs) {
     switch (input.kind) {
@@ -162,9 +164,8 @@ bool Recorder::Run::scene_changed(const detail::Frame& frame) const {
       case InputKind::SetSettings:
         return true;
       case InputKind::SetPose: {
-        const std::uint32_t index = BodyId::from_value(input.target).index;
-        for (const BodyState& body : frame.bodies)
-          if (body.id.index == index && body.type == MotionType::Static) return true;
+        const BodyState body = world.state(BodyId::from_value(input.target));
+        if (body.id && body.type == MotionType::Static) return true;
         break;
       }
       default:
@@ -190,11 +191,8 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   frame.broken.assign(events.broken_joints.begin(), events.broken_joints.end());
   frame.has_snapshot = false;
   if (!frame.moved) return;
-  world.copy_body_states(frame.bodies);
-  if (options_.contacts) world.copy_contact_points(frame.contacts);
-  if (options_.plots) frame.energy = world.energy();
+  world.copy_image(frame.image);
   frame.profiled = world.settings().profiling;
-  frame.state_hash = world.motion_hash();
   frame.has_snapshot = ++steps_since_snapshot_ >= options_.snapshot_every;
   if (!frame.has_snapshot) return;
   steps_since_snapshot_ = 0;
@@ -206,9 +204,9 @@ void Recorder::Run::step(const StepView& view) {
   const std::uint64_t step = view.world.step_count();
   if (step != last_step_ && step != last_step_ + 1) {
     queue_.drain();  // what came before is sound
-    return fail(
-        "step " + std::to_string(step) + " follows step " + std::to_string(last_step_) +
-        ": the world was restored while it was recorded; use a new recorder for what follows");
+    return fail("step " + std::to_string(step) + " follows step " + std::to_string(last_step_) +
+                ": the world was restored while it was recorded; use a new "
+                "recorder for what follows");
   }
   std::unique_ptr<detail::Frame> frame =
       queue_.take_empty(steps_since_snapshot_ + 1 >= options_.snapshot_every);
@@ -216,9 +214,9 @@ void Recorder::Run::step(const StepView& view) {
   last_step_ = step;
   if (frame->moved) {
     cost_.steps += 1;
-    cost_.body_steps += frame->bodies.size();
+    cost_.body_steps += view.world.body_count();
   }
-  if (frame->moved && scene_changed(*frame)) {
+  if (frame->moved && scene_changed(*frame, view.world)) {
     queue_.drain();
     encode(*frame, &view.world);
   } else {
@@ -238,12 +236,20 @@ void Recorder::Run::encode_scene(const detail::Frame& frame, const PhysicsWorld*
   }
 }
 
-void Recorder::Run::encode(const detail::Frame& frame, const PhysicsWorld* world) {
+void Recorder::Run::read_image(detail::Frame& frame) const {
+  frame.image.copy_body_states(frame.bodies);
+  if (options_.contacts) frame.image.copy_contact_points(frame.contacts);
+  if (options_.plots) frame.energy = frame.image.energy();
+  frame.state_hash = frame.image.motion_hash();
+}
+
+void Recorder::Run::encode(detail::Frame& frame, const PhysicsWorld* world) {
   if (!ok_) return;
   try {
     replay_.add_inputs(frame.inputs);
     if (options_.text_log) text_log_.add_events(frame);
     if (!frame.moved) return;
+    read_image(frame);
     if (options_.visuals) encode_scene(frame, world);
     if (options_.text_log && world) text_log_.add_plan(*world, frame);
     if (options_.contacts) contacts_.add(frame);
@@ -332,7 +338,8 @@ RecorderCost Recorder::cost() const { return run_ ? run_->cost_ : RecorderCost{}
 
 std::uint64_t Recorder::bytes_written() const { return run_ ? run_->writer_.bytes_written() : 0; }
 
-// Nothing that recording lacks, memory least of all, may pass into the step that is being recorded.
+// Nothing that recording lacks, memory least of all, may pass into the step
+// that is being recorded.
 void Recorder::on_attach(const PhysicsWorld& world) {
   if (!run_) return;
   try {
