@@ -39,7 +39,7 @@ TEST(MotionType, AKinematicBodyThatBecomesDynamicKeepsItsMotion) {
   EXPECT_LT(angle_between(wide(world.pose(body).orientation), wide(pose.orientation)), 16 * kEps);
   EXPECT_LT((wide(world.velocity_at(body, pose.position)) - Vector3d(1, 2, 3)).norm(), 16 * kEps);
   EXPECT_LT((spin(world, body) - Vector3d(0.3, -0.5, 1)).norm(), 16 * kEps);
-  EXPECT_NEAR(world.mass_properties(body).mass, 1000 * 0.4 * 0.6 * 1.0, 1e-9);
+  EXPECT_NEAR(world.mass_properties(body).mass, 240, 240 * 8 * kEps);
   // From here on it flies: the centre of mass goes straight, the angular momentum stays.
   const Vector3d centre = position(world, body), v = velocity(world, body);
   const Vector3d L = wide(world.angular_momentum(body));
@@ -236,7 +236,7 @@ TEST(MotionType, ACouplingRestsWithItsJoints) {
   run(world, 0.2);
   for (const BodyId wheel : wheels) must(world.set_motion_type(wheel, MotionType::Dynamic));
   run(world, 0.2);
-  for (const BodyId wheel : wheels) EXPECT_LT(spin(world, wheel).norm(), 1e-9);
+  for (const BodyId wheel : wheels) EXPECT_LT(spin(world, wheel).norm(), bar(1e-9, 1e-6));
   must(world.apply_angular_impulse(wheels[1], vec(0, 100, 0)));
   run(world, 0.2);
   EXPECT_GT(spin(world, wheels[1]).y(), 0.01);
