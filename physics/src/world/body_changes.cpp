@@ -95,7 +95,8 @@ Status PhysicsWorld::set_damping(BodyId body, Real linear, Real angular) {
   if (const Status status = detail::ready_to_change(*this, world, body); !status) return status;
   if (const Status status = detail::check_damping(linear, angular); !status) return status;
   detail::note_input(world, InputKind::SetDamping, body.value(), [&](auto& out) {
-    detail::append_all(out, {detail::as_number(linear), detail::as_number(angular)});
+    out.push_back(detail::as_number(linear));
+    out.push_back(detail::as_number(angular));
   });
   detail::BodyForce& force = world.bodies.force[world.bodies.info[body.index].dense];
   force.linear_damping = linear;
