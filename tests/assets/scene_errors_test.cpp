@@ -136,6 +136,91 @@ const BadScene kBadScenes[] = {
      "1,\n\"layers\": "
      "[32]}]}]}",
      2, "not a list of layers", "from 0 to 31"},
+    {"GroupFraction",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1,\n\"group\": 1.5}]}]}",
+     2, "'group' of collider 0 of body 'body 0' is 1.5", "whole number"},
+    {"GroupTooFar",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1,\n\"group\": 3000000000}]}]}",
+     2, "'group' of collider 0", "from -2147483648 to 2147483647"},
+    {"SurfaceVelocityIsANumber",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1,\n\"surface_velocity\": 3}]}]}",
+     2, "surface_velocity of collider 0 of body 'body 0' is a number", "linear, angular"},
+    {"SurfaceVelocityUnknownKey",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1, \"surface_velocity\": {\n\"liner\": [1, 0, 0]}}]}]}",
+     2, "unknown key 'liner'", "did you mean 'linear'?"},
+    {"OneWayOfTwoNumbers",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1,\n\"one_way\": [0, 1]}]}]}",
+     2, "'one_way' of collider 0 of body 'body 0' has 2 entries", "a list of 3"},
+    {"KindNegative",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"materials\": {\"ice\":\n{\"kind\": -1}}}", 2,
+     "'kind' of material 'ice' is -1", "from 0 to 4294967295"},
+    {"RollingFrictionNegative",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"materials\": {\"ice\":\n{\"rolling_friction\": -1}}}",
+     2, "'rolling_friction' of material 'ice' is -1", ">= 0"},
+    {"MaterialPairsAreAnObject", "{\"plumb_scene\": 1, \"bodies\": [],\n\"material_pairs\": {}}", 2,
+     "'material_pairs' is an object", "write a list"},
+    {"MaterialPairWithoutKinds",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"material_pairs\": [\n{\"friction\": 1}]}", 2,
+     "material pair 0 has no 'kinds'", "[1, 2]"},
+    {"MaterialPairOfKindZero",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"material_pairs\": [{\"friction\": 1,\n\"kinds\": [0, "
+     "2]}]}",
+     2, "'kinds' of material pair 0 are not two kinds", "whole numbers from 1 on"},
+    {"MaterialPairSaysNothing",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"material_pairs\": [\n{\"kinds\": [1, 2]}]}", 2,
+     "says nothing about the two", "give friction"},
+    {"MaterialPairTwice",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"material_pairs\": [{\"kinds\": [1, 2], \"friction\": "
+     "1},\n{\"kinds\": [2, 1], \"friction\": 0}]}",
+     2, "have an entry already", "in line 1"},
+    {"MaterialPairBounces",
+     "{\"plumb_scene\": 1, \"bodies\": [], \"material_pairs\": [{\"kinds\": [1, "
+     "2],\n\"restitution\": 2}]}",
+     2, "'restitution' of material pair 0 is 2", "from 0 to 1"},
+    {"ExcludedBodyUnknown",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"crate\"}, {\"name\": \"belt\"}], "
+     "\"excluded_pairs\": [{\"body_a\": \"belt\",\n\"body_b\": \"grate\"}]}",
+     2, "there is no body 'grate'", "did you mean 'crate'?"},
+    {"ExcludedFromTheWorld",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"crate\"}], "
+     "\"excluded_pairs\": [{\"body_a\": \"crate\",\n\"body_b\": \"world\"}]}",
+     2, "there is no body 'world'", "name one of the scene's bodies"},
+    {"ExcludedBodyMissing",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"crate\"}], "
+     "\"excluded_pairs\": [\n{\"body_a\": \"crate\"}]}",
+     2, "excluded pair 0 has no 'body_b'", "name two bodies"},
+    {"ExcludedFromItself",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"crate\"}], "
+     "\"excluded_pairs\": [{\"body_a\": \"crate\",\n\"body_b\": \"crate\"}]}",
+     2, "names one body twice", "name two bodies"},
+    {"ExcludedCopyThatIsNone",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\", \"repeat\": "
+     "{\"count\": "
+     "[2, 1, 1]}}], \"excluded_pairs\": [{\"body_a\": \"a\",\n\"body_b\": \"b[2]\"}]}",
+     2, "'b[2]' names no copy", "'b[0]' to 'b[1]'"},
+    {"ExcludedColliderThatIsNone",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"a\", \"colliders\": [{\"shape\": \"sphere\", "
+     "\"radius\": 1}]}, {\"name\": \"b\"}], \"excluded_pairs\": [{\"body_a\": \"a\", \"body_b\": "
+     "\"b\", \"collider_a\": 0,\n\"collider_b\": 0}]}",
+     2, "body 'b' has no colliders", "remove collider_a and collider_b"},
+    {"ExcludedColliderTooHigh",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"a\", \"colliders\": [{\"shape\": \"sphere\", "
+     "\"radius\": 1}]}, {\"name\": \"b\", \"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1}]}], "
+     "\"excluded_pairs\": [{\"body_a\": \"a\", \"body_b\": \"b\", \"collider_a\": "
+     "0,\n\"collider_b\": "
+     "1}]}",
+     2, "'collider_b' of excluded pair 0 is 1", "from 0 to 0"},
+    {"ExcludedColliderOnOneSide",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"name\": \"a\", \"colliders\": [{\"shape\": \"sphere\", "
+     "\"radius\": 1}]}, {\"name\": \"b\"}], \"excluded_pairs\": [\n{\"body_a\": \"a\", \"body_b\": "
+     "\"b\", \"collider_a\": 0}]}",
+     2, "names a collider on one side only", "or neither"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, SceneErrors, testing::ValuesIn(kBadScenes),

@@ -168,6 +168,7 @@ TEST(SceneSchema, TellsTheDefaultsOfTheLoader) {
   full_body.update(body);
   full_body["repeat"].update(defaults_of("repeat"));
   full_body["colliders"][0].update(defaults_of("collider"));
+  full_body["colliders"][0]["surface_velocity"] = defaults_of("surface_velocity");
   json full_moving = moving;
   full_moving["colliders"][0]["children"][0].update(defaults_of("child"));
   full["bodies"] = json::array({full_body, full_moving});

@@ -29,15 +29,25 @@ class Undo {
     if (done_) return;
     for (auto body = bodies_.rbegin(); body != bodies_.rend(); ++body)
       (void)world_.destroy_body(*body);
+    for (auto pair = pairs_.rbegin(); pair != pairs_.rend(); ++pair)
+      (void)world_.set_material_pair(pair->kind_a, pair->kind_b, pair->values);
     (void)world_.set_settings(settings_);
   }
   void created(BodyId body) { bodies_.push_back(body); }
+  void changes_pair(std::uint32_t kind_a, std::uint32_t kind_b) {
+    pairs_.push_back({kind_a, kind_b, world_.material_pair(kind_a, kind_b)});
+  }
   void keep() { done_ = true; }
 
  private:
   PhysicsWorld& world_;
   WorldSettings settings_;
   std::vector<BodyId> bodies_;
+  struct Entry {
+    std::uint32_t kind_a, kind_b;
+    std::optional<MaterialPair> values;
+  };
+  std::vector<Entry> pairs_;  // of the table of materials, as it was
   bool done_ = false;
 };
 
@@ -143,6 +153,28 @@ std::string add_body(const Scene& scene, const SceneBody& source, const Template
   return {};
 }
 
+// Empty text: it went well.
+std::string exclude_pair(const SceneExclusion& pair, const SceneInstance& instance,
+                         PhysicsWorld& world) {
+  const SceneInstanceBody* bodies[2] = {};
+  for (const bool is_b : {false, true}) {
+    const SceneExclusion::Side& side = is_b ? pair.b : pair.a;
+    const auto found = instance.index_of.find(side.body);
+    if (found == instance.index_of.end())
+      return "excluded pair: there is no body '" + side.body + "'";
+    bodies[is_b] = &instance.bodies[found->second];
+    if (side.collider && *side.collider >= bodies[is_b]->colliders.size())
+      return "excluded pair: body '" + side.body + "' has no collider " +
+             std::to_string(*side.collider);
+  }
+  if (pair.a.collider.has_value() != pair.b.collider.has_value())
+    return "excluded pair: a collider is named on one side only";
+  const Status status = pair.a.collider ? world.exclude_pair(bodies[0]->colliders[*pair.a.collider],
+                                                             bodies[1]->colliders[*pair.b.collider])
+                                        : world.exclude_pair(bodies[0]->id, bodies[1]->id);
+  return status.ok() ? std::string() : std::string("excluded pair: ") + status.message;
+}
+
 }  // namespace
 
 BodyId SceneInstance::find(std::string_view name) const {
@@ -161,6 +193,12 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
   Undo undo(world);
   if (const Status status = world.set_settings(scene.settings); !status.ok()) {
     return Error{scene.source + ": settings: " + status.message};
+  }
+  for (const SceneMaterialPair& pair : scene.material_pairs) {
+    undo.changes_pair(pair.kind_a, pair.kind_b);
+    const Status status = world.set_material_pair(pair.kind_a, pair.kind_b, pair.values);
+    if (!status.ok())
+      return Error{place_of(scene, pair.line) + ": material pair: " + status.message};
   }
   SceneInstance instance;
   MeshStore meshes(scene);
@@ -186,6 +224,10 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
                    "': " + created.status.message};
     }
     instance.joints.push_back({joint.name, created.id});
+  }
+  for (const SceneExclusion& pair : scene.excluded_pairs) {
+    const std::string error = exclude_pair(pair, instance, world);
+    if (!error.empty()) return Error{place_of(scene, pair.line) + ": " + error};
   }
   meshes.move_into(instance);
   undo.keep();

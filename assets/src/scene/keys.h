@@ -15,14 +15,20 @@ using Keys = std::span<const std::string_view>;
 namespace keys {
 
 inline constexpr std::string_view kScene[] = {
-    "$schema",   "plumb_scene", "name",         "description", "step",  "settings",
-    "materials", "meshes",      "heightfields", "bodies",      "joints"};
+    "$schema",  "plumb_scene", "name",           "description", "step",
+    "settings", "materials",   "material_pairs", "meshes",      "heightfields",
+    "bodies",   "joints",      "excluded_pairs"};
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
 inline constexpr std::string_view kSettings[] = {
     "gravity",  "substeps",      "contact_frequency", "contact_damping_ratio",
     "rotation", "warm_starting", "sleeping",          "time_to_sleep"};
-inline constexpr std::string_view kMaterial[] = {"friction", "restitution", "friction_rule",
-                                                 "restitution_rule"};
+inline constexpr std::string_view kMaterial[] = {
+    "friction",         "restitution",        "friction_rule", "restitution_rule",
+    "rolling_friction", "torsional_friction", "kind"};
+inline constexpr std::string_view kMaterialPair[] = {"kinds", "friction", "restitution",
+                                                     "rolling_friction", "torsional_friction"};
+inline constexpr std::string_view kExcludedPair[] = {"body_a", "body_b", "collider_a",
+                                                     "collider_b"};
 inline constexpr std::string_view kMesh[] = {"file",    "metres_per_unit",   "up",     "collision",
                                              "density", "max_hull_vertices", "mass_of"};
 inline constexpr std::string_view kMassOf[] = {"method", "thickness", "resolution"};
@@ -45,9 +51,10 @@ inline constexpr std::string_view kBody[] = {"name",
 inline constexpr std::string_view kMass[] = {"mass", "center", "inertia"};
 inline constexpr std::string_view kOrientation[] = {"quaternion", "euler_degrees", "axis_angle"};
 inline constexpr std::string_view kCollider[] = {
-    "shape",       "radius",   "half_extents", "half_length", "rounding",      "normal",
-    "offset",      "mesh",     "scale",        "heightfield", "children",      "position",
-    "orientation", "material", "density",      "layers",      "collides_with", "sensor"};
+    "shape",   "radius", "half_extents",  "half_length", "rounding", "normal",           "offset",
+    "mesh",    "scale",  "heightfield",   "children",    "position", "orientation",      "material",
+    "density", "layers", "collides_with", "group",       "sensor",   "surface_velocity", "one_way"};
+inline constexpr std::string_view kSurfaceVelocity[] = {"linear", "angular"};
 inline constexpr std::string_view kChild[] = {"shape",    "radius", "half_extents", "half_length",
                                               "rounding", "mesh",   "position",     "orientation"};
 inline constexpr std::string_view kHeightfield[] = {"file", "heights", "spacing", "height_scale"};
@@ -116,10 +123,13 @@ struct Named {
   std::string_view name;
   Keys keys;
 };
-inline constexpr std::array<Named, 21> kAll{{{"scene", kScene},
+inline constexpr std::array<Named, 24> kAll{{{"scene", kScene},
                                              {"step", kStep},
                                              {"settings", kSettings},
                                              {"material", kMaterial},
+                                             {"material_pair", kMaterialPair},
+                                             {"excluded_pair", kExcludedPair},
+                                             {"surface_velocity", kSurfaceVelocity},
                                              {"mesh", kMesh},
                                              {"mass_of", kMassOf},
                                              {"body", kBody},

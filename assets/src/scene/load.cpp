@@ -9,6 +9,7 @@
 #include "scene/keys.h"
 #include "scene/object_reader.h"
 #include "scene/read_joint.h"
+#include "scene/read_pairs.h"
 #include "scene/read_parts.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
@@ -92,6 +93,8 @@ void read_scene(const JsonNode& root, Scene& scene, Problems& problems) {
       read_material(member.value, "material '" + member.key + "'", material.material, problems);
     }
   }
+  if (const JsonNode* pairs = list_of(in, "material_pairs", JsonNode::Kind::Array))
+    read_material_pairs(*pairs, scene.material_pairs, problems);
   if (const JsonNode* meshes = list_of(in, "meshes", JsonNode::Kind::Object)) {
     for (const JsonMember& member : meshes->members) {
       SceneMesh& mesh = scene.meshes.emplace_back();
@@ -109,6 +112,8 @@ void read_scene(const JsonNode& root, Scene& scene, Problems& problems) {
   read_bodies(in, scene);
   if (const JsonNode* joints = list_of(in, "joints", JsonNode::Kind::Array))
     JointsReader(scene, problems).read(*joints, scene.joints);
+  if (const JsonNode* pairs = list_of(in, "excluded_pairs", JsonNode::Kind::Array))
+    read_excluded_pairs(*pairs, scene, problems);
 }
 
 // Where a file is that the scene names, from the working directory; it is missed on request.

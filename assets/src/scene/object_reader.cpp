@@ -88,7 +88,8 @@ bool ObjectReader::number(std::string_view key, double& out, const Range& range)
   return true;
 }
 
-bool ObjectReader::integer(std::string_view key, int& out, int lower, int upper) const {
+bool ObjectReader::integer(std::string_view key, std::int64_t& out, std::int64_t lower,
+                           std::int64_t upper) const {
   double wide = 0;
   if (!number(key, wide, {static_cast<double>(lower), static_cast<double>(upper), false}))
     return false;
@@ -97,7 +98,7 @@ bool ObjectReader::integer(std::string_view key, int& out, int lower, int upper)
                   "write a whole number");
     return false;
   }
-  out = static_cast<int>(wide);
+  out = static_cast<std::int64_t>(wide);
   return true;
 }
 

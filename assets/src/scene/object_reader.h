@@ -41,7 +41,9 @@ class ObjectReader {
   [[nodiscard]] Problems& problems() const { return problems_; }
 
   bool number(std::string_view key, double& out, const Range& range = kAnyNumber) const;
-  bool integer(std::string_view key, int& out, int lower, int upper) const;
+  // Bounds of up to 53 bits.
+  bool integer(std::string_view key, std::int64_t& out, std::int64_t lower,
+               std::int64_t upper) const;
   bool flag(std::string_view key, bool& out) const;
   bool text(std::string_view key, std::string& out) const;
   bool vector(std::string_view key, Eigen::Vector3d& out, const Range& range = kAnyNumber) const;
@@ -50,6 +52,14 @@ class ObjectReader {
   // The place of the text in the list of words.
   bool choice(std::string_view key, Keys words, std::size_t& out) const;
 
+  template <class T>
+    requires std::is_integral_v<T>
+  bool integer(std::string_view key, T& out, T lower, T upper) const {
+    std::int64_t wide = 0;
+    if (!integer(key, wide, std::int64_t{lower}, std::int64_t{upper})) return false;
+    out = static_cast<T>(wide);
+    return true;
+  }
   template <class T>
     requires std::is_same_v<T, float>
   bool number(std::string_view key, T& out, const Range& range = kAnyNumber) const {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "scene/nearest.h"
@@ -108,6 +109,16 @@ void read_surface(const ObjectReader& in, const Scene& scene, SceneCollider& col
       names.empty() ? "describe it under \"materials\"" : suggestion(collider.material, names));
 }
 
+void read_surface_velocity(const ObjectReader& parent, SurfaceVelocity& velocity) {
+  const JsonNode* node = parent.find("surface_velocity");
+  if (!node) return;
+  const ObjectReader in(*node, "surface_velocity of " + parent.what(), keys::kSurfaceVelocity,
+                        parent.problems());
+  if (!in.is_object()) return;
+  in.vector("linear", velocity.linear);
+  in.vector("angular", velocity.angular);
+}
+
 }  // namespace
 
 void read_collider(const JsonNode& node, const std::string& what, const Scene& scene,
@@ -125,7 +136,11 @@ void read_collider(const JsonNode& node, const std::string& what, const Scene& s
   }
   read_layers(in, "layers", collider.collider.filter.layers);
   read_layers(in, "collides_with", collider.collider.filter.collides_with);
+  in.integer("group", collider.collider.filter.group, std::numeric_limits<std::int32_t>::min(),
+             std::numeric_limits<std::int32_t>::max());
   in.flag("sensor", collider.collider.is_sensor);
+  read_surface_velocity(in, collider.collider.surface_velocity);
+  in.vector("one_way", collider.collider.one_way);
 }
 
 void read_body(const JsonNode& node, const Scene& scene, SceneBody& body, Problems& problems) {

@@ -1,9 +1,6 @@
 // Joints of a scene file: their names, bodies and frames.
 #include "scene/read_joint.h"
 
-#include <charconv>
-
-#include "scene/nearest.h"
 #include "scene/read_parts.h"
 
 namespace plumb::inline PLUMB_ABI::assets::scene {
@@ -48,9 +45,8 @@ LocalPose read_frame(const JsonNode& node, const std::string& what, Problems& pr
 
 }  // namespace
 
-JointsReader::JointsReader(const Scene& scene, Problems& problems) : problems_(problems) {
-  for (const SceneBody& body : scene.bodies) bodies_.emplace(body.name, &body);
-}
+JointsReader::JointsReader(const Scene& scene, Problems& problems)
+    : bodies_(scene), problems_(problems) {}
 
 void JointsReader::read(const JsonNode& list, std::vector<SceneJoint>& joints) {
   for (std::size_t k = 0; k < list.items.size(); ++k) {
@@ -92,55 +88,14 @@ void JointsReader::read_one(const JsonNode& node, SceneJoint& joint) {
     return;
   }
   in.flag("collide_connected", joint.joint.collide_connected);
-  read_body(in, "body_a", joint.a);
-  read_body(in, "body_b", joint.b);
+  bodies_.read(in, "body_a", BodyNames::World::Allowed, joint.a.body);
+  bodies_.read(in, "body_b", BodyNames::World::Allowed, joint.b.body);
   if (joint.a.body == joint.b.body) {
     problems_.add(in.line(),
                   in.what() + (joint.a.body.empty() ? " names no body" : " names one body twice"),
                   "name two under body_a and body_b; one that is left out is the world");
   }
   read_place(in, joint);
-}
-
-void JointsReader::read_body(const ObjectReader& in, std::string_view key, SceneJointSide& side) {
-  std::string name;
-  if (!in.text(key, name) || name == kWorldName) return;
-  side.body = name;
-  const auto complain = [&](const std::string& what, const std::string& remedy) {
-    problems_.add(in.line_of(key), what, remedy);
-  };
-  const std::size_t bracket = name.find('[');
-  const std::string_view plain = std::string_view(name).substr(0, bracket);
-  const auto found = bodies_.find(plain);
-  if (found == bodies_.end()) {
-    std::vector<std::string_view> names{kWorldName};
-    for (const auto& [known, body] : bodies_) names.push_back(known);
-    const std::string_view nearest = nearest_of(plain, names);
-    complain("there is no body '" + std::string(plain) + "'",
-             nearest.empty() ? "name one of the scene's bodies, or \"world\""
-                             : "did you mean '" + std::string(nearest) + "'?");
-    return;
-  }
-  const SceneBody& body = *found->second;
-  if (!body.repeat) {
-    if (bracket != std::string::npos) {
-      complain("body '" + body.name + "' has no copies", "write its name without a number");
-    }
-    return;
-  }
-  std::size_t copy = 0;
-  const char* end = name.data() + name.size();
-  bool good = bracket != std::string::npos && name.back() == ']';
-  if (good) {
-    const auto [stop, error] = std::from_chars(name.data() + bracket + 1, end - 1, copy);
-    good = error == std::errc{} && stop == end - 1 && copy < body.repeat->total();
-  }
-  // What is written must be what the copy is called: "link[01]" is not.
-  if (!good || name != body.name + "[" + std::to_string(copy) + "]") {
-    complain("'" + name + "' names no copy of the body '" + body.name + "'",
-             "name one of '" + body.name + "[0]' to '" + body.name + "[" +
-                 std::to_string(body.repeat->total() - 1) + "]'");
-  }
 }
 
 void JointsReader::read_side(const ObjectReader& in, char letter, SceneJointSide& side) {

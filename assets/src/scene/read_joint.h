@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "plumb/assets/scene.h"
+#include "scene/body_names.h"
 #include "scene/object_reader.h"
 
 namespace plumb::inline PLUMB_ABI::assets::scene {
@@ -34,12 +35,11 @@ class JointsReader {
 
  private:
   void read_one(const JsonNode& node, SceneJoint& joint);
-  void read_body(const ObjectReader& in, std::string_view key, SceneJointSide& side);
   void read_place(const ObjectReader& in, SceneJoint& joint);
   void read_side(const ObjectReader& in, char letter, SceneJointSide& side);
   void check_coupled(const ObjectReader& in, std::string_view key, const std::string& wanted);
 
-  std::map<std::string_view, const SceneBody*> bodies_;
+  BodyNames bodies_;
   std::map<std::string, std::string_view> kinds_;  // of the joints read so far, by name
   Problems& problems_;
 };

@@ -63,6 +63,9 @@ void read_material(const JsonNode& node, const std::string& what, Material& mate
   in.number("restitution", material.restitution, {0, 1, false});
   in.choice("friction_rule", kCombineRules, material.friction_rule);
   in.choice("restitution_rule", kCombineRules, material.restitution_rule);
+  in.number("rolling_friction", material.rolling_friction, kNotNegative);
+  in.number("torsional_friction", material.torsional_friction, kNotNegative);
+  in.integer("kind", material.kind, 0u, kLastKind);
 }
 
 void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, Problems& problems) {

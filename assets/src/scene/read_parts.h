@@ -11,6 +11,7 @@ namespace plumb::inline PLUMB_ABI::assets::scene {
 
 // Bodies after all repeats; far above any scene, it catches a slip in a count.
 inline constexpr std::size_t kMostBodies = 1'000'000;
+inline constexpr std::uint32_t kLastKind = 0xffffffffu;  // of Material::kind
 
 void read_step(const JsonNode& node, SceneStep& step, Problems& problems);
 void read_settings(const JsonNode& node, WorldSettings& settings, Problems& problems);

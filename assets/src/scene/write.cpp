@@ -29,7 +29,32 @@ Json json_of(const Material& material) {
   return {{"friction", tidy(material.friction)},
           {"restitution", tidy(material.restitution)},
           {"friction_rule", word(scene::kCombineRules, material.friction_rule)},
-          {"restitution_rule", word(scene::kCombineRules, material.restitution_rule)}};
+          {"restitution_rule", word(scene::kCombineRules, material.restitution_rule)},
+          {"rolling_friction", tidy(material.rolling_friction)},
+          {"torsional_friction", tidy(material.torsional_friction)},
+          {"kind", material.kind}};
+}
+
+Json json_of(const SceneMaterialPair& pair) {
+  Json out;
+  out["kinds"] = Json::array({pair.kind_a, pair.kind_b});
+  const auto write = [&out](const char* key, const std::optional<Real>& value) {
+    if (value) out[key] = tidy(*value);
+  };
+  write("friction", pair.values.friction);
+  write("restitution", pair.values.restitution);
+  write("rolling_friction", pair.values.rolling_friction);
+  write("torsional_friction", pair.values.torsional_friction);
+  return out;
+}
+
+Json json_of(const SceneExclusion& pair) {
+  Json out;
+  out["body_a"] = pair.a.body;
+  out["body_b"] = pair.b.body;
+  if (pair.a.collider) out["collider_a"] = *pair.a.collider;
+  if (pair.b.collider) out["collider_b"] = *pair.b.collider;
+  return out;
 }
 
 Json json_of(const WorldSettings& settings) {
@@ -162,7 +187,13 @@ Json json_of(const SceneCollider& scene_collider) {
   if (collider.filter.collides_with != kAllLayers) {
     out["collides_with"] = layers(collider.filter.collides_with);
   }
+  if (collider.filter.group != 0) out["group"] = collider.filter.group;
   if (collider.is_sensor) out["sensor"] = true;
+  const SurfaceVelocity& running = collider.surface_velocity;
+  if (running != SurfaceVelocity{})
+    out["surface_velocity"] = {{"linear", list(running.linear)},
+                               {"angular", list(running.angular)}};
+  if (collider.one_way != Vec3::Zero()) out["one_way"] = list(collider.one_way);
   return out;
 }
 
@@ -228,6 +259,9 @@ std::string scene_to_json(const Scene& scene) {
   for (const SceneMaterial& material : scene.materials) {
     out["materials"][material.name] = json_of(material.material);
   }
+  out["material_pairs"] = Json::array();
+  for (const SceneMaterialPair& pair : scene.material_pairs)
+    out["material_pairs"].push_back(json_of(pair));
   out["meshes"] = Json::object();
   for (const SceneMesh& mesh : scene.meshes) out["meshes"][mesh.name] = json_of(mesh);
   out["heightfields"] = Json::object();
@@ -237,6 +271,9 @@ std::string scene_to_json(const Scene& scene) {
   for (const SceneBody& body : scene.bodies) out["bodies"].push_back(json_of(body));
   out["joints"] = Json::array();
   for (const SceneJoint& joint : scene.joints) out["joints"].push_back(json_of_joint(joint));
+  out["excluded_pairs"] = Json::array();
+  for (const SceneExclusion& pair : scene.excluded_pairs)
+    out["excluded_pairs"].push_back(json_of(pair));
   return out.dump(kIndent) + "\n";
 }
 

@@ -39,6 +39,21 @@ enum class InputKind : std::uint32_t {
   SetMaterialPair,
   ExcludeBodyPair,
   ExcludeColliderPair,
+  DeriveMass,
+  SetMotionType,
+  SetLocks,
+  SetDamping,
+  SetGravityScale,
+  SetCanSleep,
+  SetContinuous,
+  SetBodyUserData,
+  SetShape,
+  SetLocalPose,
+  SetMaterial,
+  SetDensity,
+  SetSensor,
+  SetOneWay,
+  SetColliderUserData,
 };
 const char* name_of(InputKind kind);
 

@@ -74,7 +74,36 @@ class PhysicsWorld {
   // the shorter turn. It keeps them after that.
   Status move_kinematic(BodyId body, const Pose& target, double dt);
   Status set_mass(BodyId body, const MassProperties& properties);
+  Status derive_mass(BodyId body);  // takes set_mass back: from the colliders' densities again
   Status set_awake(BodyId body, bool awake);  // putting to sleep takes the whole island
+
+  // --- changing bodies -------------------------------------------------------------------------
+  // The fields of RigidBody, with its ranges. Handles stay valid, and so do colliders and joints;
+  // what a change may set in motion wakes.
+  // The motion goes on: only what becomes static stops. Contacts and overlaps with what it can meet
+  // no more end. A joint that holds no dynamic body rests until it does. BadShape: a half-space
+  // needs a static body, a mesh or heightfield one that is not dynamic.
+  Status set_motion_type(BodyId body, MotionType type);
+  Status set_locks(BodyId body, const MotionLocks& locks);     // ends the motion that is locked
+  Status set_damping(BodyId body, Real linear, Real angular);  // [1/s] >= 0
+  Status set_gravity_scale(BodyId body, Real scale);           // [-] finite
+  Status set_can_sleep(BodyId body, bool can_sleep);
+  Status set_continuous(BodyId body, bool continuous);
+  Status set_user_data(BodyId body, std::uint64_t user_data);
+
+  // --- changing colliders ----------------------------------------------------------------------
+  // The fields of Collider, with its ranges; a mass that is not the body's own follows. All but
+  // set_user_data wake the body and what lies on it. Contacts last where the surfaces still touch.
+  Status set_shape(ColliderId collider, const Shape& shape);
+  Status set_local_pose(ColliderId collider, const LocalPose& pose);  // in the body frame
+  Status set_material(ColliderId collider, const Material& material);
+  Status set_density(ColliderId collider, double density);  // [kg/m^3] >= 0
+  // Contacts end when it becomes a sensor, overlaps when it becomes solid; the others begin with
+  // the next step.
+  Status set_sensor(ColliderId collider, bool is_sensor);
+  // Pairs that met it one-way keep their side, solid or passing, until they part.
+  Status set_one_way(ColliderId collider, const Vec3& direction);  // zero: solid from everywhere
+  Status set_user_data(ColliderId collider, std::uint64_t user_data);
 
   // --- acting on joints ------------------------------------------------------------------------
   // axis: 0 of a hinge or slider; 0 to 5 of a six-dof joint. Empty: none. Both wake the bodies.

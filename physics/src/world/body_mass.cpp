@@ -86,13 +86,9 @@ void update_mass(WorldState& world, std::uint32_t body) {
     R_BP = rotation_from(R);
     const Real inverse = inverse_or_zero(info.properties.mass);
     mass.mass = static_cast<Real>(info.properties.mass);
-    mass.inverse_mass = {info.locks.linear_x ? Real(0) : inverse,
-                         info.locks.linear_y ? Real(0) : inverse,
-                         info.locks.linear_z ? Real(0) : inverse};
+    mass.inverse_mass = {inverse, inverse, inverse};
     mass.moments = {static_cast<Real>(I.x()), static_cast<Real>(I.y()), static_cast<Real>(I.z())};
     mass.inverse_moments = {inverse_or_zero(I.x()), inverse_or_zero(I.y()), inverse_or_zero(I.z())};
-    mass.angular_locks = (info.locks.angular_x ? 1u : 0u) | (info.locks.angular_y ? 2u : 0u) |
-                         (info.locks.angular_z ? 4u : 0u);
   }
   info.center_B = center;
   info.R_BP = R_BP;
@@ -100,8 +96,30 @@ void update_mass(WorldState& world, std::uint32_t body) {
   pose.q = normalized(R_WB * R_BP);
   pose.x = origin + cast<PosReal>(new_arm);
   velocity.v += cross(velocity.w, new_arm - old_arm);
-  bodies.momentum[dense].L = angular_momentum_of(mass, pose.q, velocity.w);
+  if (info.disabled) mass = {};
+  update_locks(world, body);
   update_collider_frames(world, body);
+}
+
+// Ends the motion that the locks forbid, and what could bring it back.
+void update_locks(WorldState& world, std::uint32_t body) {
+  BodyStore& bodies = world.bodies;
+  const BodyInfo& info = bodies.info[body];
+  const MotionLocks& k = info.locks;
+  BodyMass& mass = bodies.mass[info.dense];
+  BodyVelocity& velocity = bodies.velocity[info.dense];
+  const Real inverse = mass.mass > Real(0) ? inverse_or_zero(info.properties.mass) : Real(0);
+  const auto unlocked = [](bool x, bool y, bool z, Vec a) {
+    return Vec{x ? Real(0) : a.x, y ? Real(0) : a.y, z ? Real(0) : a.z};
+  };
+  mass.inverse_mass = unlocked(k.linear_x, k.linear_y, k.linear_z, {inverse, inverse, inverse});
+  mass.angular_locks = 0;
+  if (mass.mass > Real(0))
+    mass.angular_locks =
+        (k.angular_x ? 1u : 0u) | (k.angular_y ? 2u : 0u) | (k.angular_z ? 4u : 0u);
+  velocity.v = unlocked(k.linear_x, k.linear_y, k.linear_z, velocity.v);
+  velocity.w = unlocked(k.angular_x, k.angular_y, k.angular_z, velocity.w);
+  bodies.momentum[info.dense].L = angular_momentum_of(mass, bodies.pose[info.dense].q, velocity.w);
 }
 
 // Places the colliders relative to the centre of mass and the principal axes.

@@ -3,45 +3,12 @@
 #include "world/contact_data.h"
 
 #include "world/inputs.h"
+#include "world/pair_changes.h"
 #include "world/validate.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
-
-bool involves(const Pair& pair, std::uint32_t collider) {
-  return pair.collider_a() == collider || pair.collider_b() == collider;
-}
-
-// Pairs asleep are woken before their data change, so the awake ones are all.
-template <class Concerns>
-void remake_pairs(WorldState& world, Concerns&& concerns) {
-  for (std::size_t i = 0; i < world.pairs.size(); ++i)
-    if (concerns(world.pairs[i])) world.pairs[i] = remake_pair(world, world.pairs[i]);
-}
-
-// A body and what lies on it, or it lies on.
-void wake_with_neighbours(WorldState& world, std::uint32_t body) {
-  wake_body(world, body);
-  wake_around(world, body);
-}
-
-void seek_pairs(WorldState& world, std::uint32_t slot) {
-  ColliderInfo& collider = world.colliders.info[slot];
-  if (collider.query_pairs) return;
-  collider.query_pairs = true;
-  world.query_list.push_back(slot);
-}
-
-// Ends the pairs that may not meet any more; lets the colliders seek those that may now.
-template <class Concerns>
-void refilter_pairs(WorldState& world, Concerns&& concerns) {
-  world.pairs.remove_if([&](const Pair& pair) {
-    if (!concerns(pair) || may_meet(world, pair.collider_a(), pair.collider_b())) return false;
-    note_pair_end(world, pair);
-    return true;
-  });
-}
 
 Status same_one() {
   return {StatusCode::OutOfRange, "a pair has two members: the same one was named twice"};

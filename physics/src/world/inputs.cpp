@@ -1,12 +1,14 @@
-// Inputs as numbers. Layouts (x3: three numbers; u64: low and high 32 bits):
+// Inputs as numbers. What a call is given stands in the order of its parameters, in these layouts
+// (x3: three numbers; u64: low and high 32 bits):
 //
-//   body       type, position x3, orientation xyzw x4, v x3, w x3, has mass [mass], six locks,
+//   body       type, position x3, orientation xyzw x4, v x3, w x3, has mass [mass], locks x6,
 //              linear damping, angular damping, gravity scale, can sleep, starts awake,
 //              continuous, user data u64
 //   mass       mass, centre x3, inertia xx yy zz xy xz yz
-//   collider   shape, position x3, orientation x4, friction, restitution, two rules, rolling and
-//              torsional friction, kind, filter, density, is sensor, user data u64, surface
+//   collider   shape, local pose, material, filter, density, is sensor, user data u64, surface
 //              velocity, one-way direction x3
+//   local pose position x3, orientation x4
+//   material   friction, restitution, two rules, rolling and torsional friction, kind
 //   filter     layers, collides with, group
 //   surface velocity   linear x3, angular x3
 //   material pair      given, and if it is, for friction, restitution, rolling and torsional
@@ -24,72 +26,9 @@
 #include "world/inputs.h"
 
 #include <array>
-#include <limits>
-
-#include "world/joint_inputs.h"
+#include <cmath>
 
 namespace plumb::inline PLUMB_ABI {
-
-const char* name_of(InputKind kind) {
-  switch (kind) {
-    case InputKind::CreateBody:
-      return "create_body";
-    case InputKind::DestroyBody:
-      return "destroy_body";
-    case InputKind::CreateCollider:
-      return "create_collider";
-    case InputKind::DestroyCollider:
-      return "destroy_collider";
-    case InputKind::SetPose:
-      return "set_pose";
-    case InputKind::SetLinearVelocity:
-      return "set_linear_velocity";
-    case InputKind::SetAngularVelocity:
-      return "set_angular_velocity";
-    case InputKind::SetMass:
-      return "set_mass";
-    case InputKind::ApplyForce:
-      return "apply_force";
-    case InputKind::ApplyForceAt:
-      return "apply_force_at";
-    case InputKind::ApplyForceAtBodyPoint:
-      return "apply_force_at_body_point";
-    case InputKind::ApplyTorque:
-      return "apply_torque";
-    case InputKind::ApplyImpulse:
-      return "apply_impulse";
-    case InputKind::ApplyImpulseAt:
-      return "apply_impulse_at";
-    case InputKind::ApplyImpulseAtBodyPoint:
-      return "apply_impulse_at_body_point";
-    case InputKind::ApplyAngularImpulse:
-      return "apply_angular_impulse";
-    case InputKind::SetAwake:
-      return "set_awake";
-    case InputKind::SetSettings:
-      return "set_settings";
-    case InputKind::CreateJoint:
-      return "create_joint";
-    case InputKind::DestroyJoint:
-      return "destroy_joint";
-    case InputKind::SetJointMotor:
-      return "set_joint_motor";
-    case InputKind::SetJointLimit:
-      return "set_joint_limit";
-    case InputKind::SetSurfaceVelocity:
-      return "set_surface_velocity";
-    case InputKind::SetFilter:
-      return "set_filter";
-    case InputKind::SetMaterialPair:
-      return "set_material_pair";
-    case InputKind::ExcludeBodyPair:
-      return "exclude_body_pair";
-    case InputKind::ExcludeColliderPair:
-      return "exclude_collider_pair";
-  }
-  return "unknown";
-}
-
 namespace detail {
 namespace {
 
@@ -135,24 +74,31 @@ void append(std::vector<double>& out, const RigidBody& body) {
   append(out, body.angular_velocity);
   append_all(out, {body.mass.has_value() ? 1.0 : 0.0});
   if (body.mass.has_value()) append(out, *body.mass);
-  const MotionLocks& k = body.locks;
-  for (const bool lock :
-       {k.linear_x, k.linear_y, k.linear_z, k.angular_x, k.angular_y, k.angular_z})
-    append_all(out, {lock ? 1.0 : 0.0});
+  append(out, body.locks);
   append_all(out, {as_number(body.linear_damping), as_number(body.angular_damping),
                    as_number(body.gravity_scale), body.can_sleep ? 1.0 : 0.0,
                    body.starts_awake ? 1.0 : 0.0, body.continuous ? 1.0 : 0.0});
   append_long(out, body.user_data);
 }
-void append(std::vector<double>& out, const Collider& collider) {
-  append_shape(out, collider.shape);
-  append(out, collider.pose.position);
-  append(out, collider.pose.orientation);
-  const Material& m = collider.material;
+void append(std::vector<double>& out, const MotionLocks& k) {
+  for (const bool lock :
+       {k.linear_x, k.linear_y, k.linear_z, k.angular_x, k.angular_y, k.angular_z})
+    append_all(out, {lock ? 1.0 : 0.0});
+}
+void append(std::vector<double>& out, const LocalPose& pose) {
+  append(out, pose.position);
+  append(out, pose.orientation);
+}
+void append(std::vector<double>& out, const Material& m) {
   append_all(out,
              {as_number(m.friction), as_number(m.restitution), static_cast<double>(m.friction_rule),
               static_cast<double>(m.restitution_rule), as_number(m.rolling_friction),
               as_number(m.torsional_friction), static_cast<double>(m.kind)});
+}
+void append(std::vector<double>& out, const Collider& collider) {
+  append_shape(out, collider.shape);
+  append(out, collider.pose);
+  append(out, collider.material);
   append(out, collider.filter);
   append_all(out, {collider.density, collider.is_sensor ? 1.0 : 0.0});
   append_long(out, collider.user_data);
@@ -222,18 +168,23 @@ MassProperties NumberReader::mass() {
   m.I_Bcm_B(1, 2) = m.I_Bcm_B(2, 1) = number();
   return m;
 }
+MotionType NumberReader::motion_type() { return choice<MotionType>(*this, 3, ok_); }
+MotionLocks NumberReader::locks() {
+  MotionLocks k;
+  for (bool* lock :
+       {&k.linear_x, &k.linear_y, &k.linear_z, &k.angular_x, &k.angular_y, &k.angular_z})
+    *lock = flag();
+  return k;
+}
 RigidBody NumberReader::body() {
   RigidBody body;
-  body.type = choice<MotionType>(*this, 3, ok_);
+  body.type = motion_type();
   body.pose.position = position();
   body.pose.orientation = orientation();
   body.linear_velocity = vector();
   body.angular_velocity = vector();
   if (flag()) body.mass = mass();
-  MotionLocks& k = body.locks;
-  for (bool* lock :
-       {&k.linear_x, &k.linear_y, &k.linear_z, &k.angular_x, &k.angular_y, &k.angular_z})
-    *lock = flag();
+  body.locks = locks();
   body.linear_damping = real();
   body.angular_damping = real();
   body.gravity_scale = real();
@@ -243,18 +194,29 @@ RigidBody NumberReader::body() {
   body.user_data = long_word();
   return body;
 }
+Shape NumberReader::shape() { return read_shape(*this, ok_); }
+LocalPose NumberReader::local_pose() {
+  LocalPose pose;
+  pose.position = vector();
+  pose.orientation = orientation();
+  return pose;
+}
+Material NumberReader::material() {
+  Material m;
+  m.friction = real();
+  m.restitution = real();
+  m.friction_rule = choice<CombineRule>(*this, 5, ok_);
+  m.restitution_rule = choice<CombineRule>(*this, 5, ok_);
+  m.rolling_friction = real();
+  m.torsional_friction = real();
+  m.kind = word();
+  return m;
+}
 Collider NumberReader::collider() {
   Collider collider;
-  collider.shape = read_shape(*this, ok_);
-  collider.pose.position = vector();
-  collider.pose.orientation = orientation();
-  collider.material.friction = real();
-  collider.material.restitution = real();
-  collider.material.friction_rule = choice<CombineRule>(*this, 5, ok_);
-  collider.material.restitution_rule = choice<CombineRule>(*this, 5, ok_);
-  collider.material.rolling_friction = real();
-  collider.material.torsional_friction = real();
-  collider.material.kind = word();
+  collider.shape = shape();
+  collider.pose = local_pose();
+  collider.material = material();
   collider.filter = filter();
   collider.density = number();
   collider.is_sensor = flag();
@@ -306,127 +268,5 @@ WorldSettings NumberReader::settings() {
 }
 
 }  // namespace detail
-
-Status PhysicsWorld::apply_input(const InputRecord& input) {
-  detail::NumberReader in(input.numbers);
-  const BodyId body = BodyId::from_value(input.target);
-  const Status malformed{StatusCode::BadSnapshot,
-                         "the recorded input does not have the numbers of its kind"};
-  // Everything is read before anything is done, so that a malformed record changes nothing.
-  switch (input.kind) {
-    case InputKind::CreateBody: {
-      const RigidBody made = in.body();
-      return in.complete() ? create_body(made).status : malformed;
-    }
-    case InputKind::DestroyBody:
-      return in.complete() ? destroy_body(body) : malformed;
-    case InputKind::CreateCollider: {
-      const Collider made = in.collider();
-      return in.complete() ? create_collider(body, made).status : malformed;
-    }
-    case InputKind::DestroyCollider:
-      return in.complete() ? destroy_collider(ColliderId::from_value(input.target)) : malformed;
-    case InputKind::SetPose: {
-      Pose pose;
-      pose.position = in.position();
-      pose.orientation = in.orientation();
-      return in.complete() ? set_pose(body, pose) : malformed;
-    }
-    case InputKind::SetMass: {
-      const MassProperties mass = in.mass();
-      return in.complete() ? set_mass(body, mass) : malformed;
-    }
-    case InputKind::SetAwake: {
-      const bool awake = in.flag();
-      return in.complete() ? set_awake(body, awake) : malformed;
-    }
-    case InputKind::SetSettings: {
-      const WorldSettings chosen = in.settings();
-      return in.complete() ? set_settings(chosen) : malformed;
-    }
-    case InputKind::CreateJoint: {
-      bool ok = true;
-      const Joint made = detail::read_joint(in, ok);
-      return ok && in.complete() ? create_joint(made).status : malformed;
-    }
-    case InputKind::DestroyJoint:
-      return in.complete() ? destroy_joint(JointId::from_value(input.target)) : malformed;
-    case InputKind::SetJointMotor: {
-      bool ok = true;
-      const int axis = static_cast<int>(in.number());
-      const auto motor = detail::read_motor(in, ok);
-      return ok && in.complete() ? set_joint_motor(JointId::from_value(input.target), motor, axis)
-                                 : malformed;
-    }
-    case InputKind::SetJointLimit: {
-      bool ok = true;
-      const int axis = static_cast<int>(in.number());
-      const auto limit = detail::read_limit(in, ok);
-      return ok && in.complete() ? set_joint_limit(JointId::from_value(input.target), limit, axis)
-                                 : malformed;
-    }
-    case InputKind::SetSurfaceVelocity: {
-      const SurfaceVelocity velocity = in.surface_velocity();
-      return in.complete() ? set_surface_velocity(ColliderId::from_value(input.target), velocity)
-                           : malformed;
-    }
-    case InputKind::SetFilter: {
-      const Filter filter = in.filter();
-      return in.complete() ? set_filter(ColliderId::from_value(input.target), filter) : malformed;
-    }
-    case InputKind::SetMaterialPair: {
-      const std::uint32_t kind_a = in.word(), kind_b = in.word();
-      const std::optional<MaterialPair> values = in.material_pair();
-      return in.complete() ? set_material_pair(kind_a, kind_b, values) : malformed;
-    }
-    case InputKind::ExcludeBodyPair: {
-      const BodyId other = BodyId::from_value(in.long_word());
-      const bool excluded = in.flag();
-      return in.complete() ? exclude_pair(body, other, excluded) : malformed;
-    }
-    case InputKind::ExcludeColliderPair: {
-      const ColliderId other = ColliderId::from_value(in.long_word());
-      const bool excluded = in.flag();
-      return in.complete() ? exclude_pair(ColliderId::from_value(input.target), other, excluded)
-                           : malformed;
-    }
-    case InputKind::ApplyForceAt:
-    case InputKind::ApplyImpulseAt: {
-      const Vec3 v = in.vector();
-      const Pos3 p = in.position();
-      if (!in.complete()) return malformed;
-      return input.kind == InputKind::ApplyForceAt ? apply_force_at(body, v, p)
-                                                   : apply_impulse_at(body, v, p);
-    }
-    case InputKind::ApplyForceAtBodyPoint:
-    case InputKind::ApplyImpulseAtBodyPoint: {
-      const Vec3 v = in.vector(), p = in.vector();
-      if (!in.complete()) return malformed;
-      return input.kind == InputKind::ApplyForceAtBodyPoint
-                 ? apply_force_at_body_point(body, v, p)
-                 : apply_impulse_at_body_point(body, v, p);
-    }
-    default:
-      break;
-  }
-  const Vec3 v = in.vector();
-  if (!in.complete()) return malformed;
-  switch (input.kind) {
-    case InputKind::SetLinearVelocity:
-      return set_linear_velocity(body, v);
-    case InputKind::SetAngularVelocity:
-      return set_angular_velocity(body, v);
-    case InputKind::ApplyForce:
-      return apply_force(body, v);
-    case InputKind::ApplyTorque:
-      return apply_torque(body, v);
-    case InputKind::ApplyImpulse:
-      return apply_impulse(body, v);
-    case InputKind::ApplyAngularImpulse:
-      return apply_angular_impulse(body, v);
-    default:
-      return {StatusCode::BadSnapshot, "the recorded input is of an unknown kind"};
-  }
-}
 
 }  // namespace plumb::inline PLUMB_ABI

@@ -167,6 +167,12 @@ Status check_joint(const WorldState& world, const Joint& joint) {
   };
   if (!known(joint.body_a) || !known(joint.body_b)) return stale_body();
   if (joint.body_a == joint.body_b) return bad("a joint needs two different bodies");
+  return {};
+}
+
+Status check_joint_moves(const WorldState& world, const Joint& joint) {
+  JointId first, second;
+  if (coupled_joints(joint.kind, first, second)) return {};
   const auto dynamic = [&](BodyId body) {
     return !body.is_null() && world.bodies.info[body.index].type == MotionType::Dynamic;
   };

@@ -13,6 +13,8 @@ Status check_softness(const JointSoftness& softness);
 Status check_limit(const JointLimit& limit);
 Status check_motor(const JointMotor& motor);
 Status check_joint(const WorldState& world, const Joint& joint);
+Status check_joint_moves(const WorldState& world,
+                         const Joint& joint);  // something, when it is made
 
 // Whether a joint between the bodies keeps them from colliding.
 bool joined_without_contact(const WorldState& world, std::uint32_t body_a, std::uint32_t body_b);
@@ -24,6 +26,8 @@ void remove_joints_of(WorldState& world, std::uint32_t body);
 void link_joined(WorldState& world);
 void link_bodies(WorldState& world, std::uint32_t body_a, std::uint32_t body_b);  // islands.cpp
 void break_joints(WorldState& world);
+// Joints that hold no dynamic body carry nothing, and remember nothing of what they carried.
+void rest_idle_joints(WorldState& world);
 
 void save_joints(ColumnWriter& out, const WorldState& world);
 bool restore_joints(const Snapshot& in, WorldState& world);

@@ -5,21 +5,35 @@
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
 
+Status check_motion_type(MotionType type) {
+  if (type != MotionType::Static && type != MotionType::Kinematic && type != MotionType::Dynamic)
+    return {StatusCode::OutOfRange, "motion type must be Static, Kinematic or Dynamic"};
+  return {};
+}
+
+Status check_damping(Real linear, Real angular) {
+  if (!std::isfinite(linear) || linear < 0)
+    return {StatusCode::OutOfRange, "linear damping must be finite and not negative [1/s]"};
+  if (!std::isfinite(angular) || angular < 0)
+    return {StatusCode::OutOfRange, "angular damping must be finite and not negative [1/s]"};
+  return {};
+}
+
+Status check_gravity_scale(Real scale) {
+  if (!std::isfinite(scale)) return {StatusCode::NotFinite, "gravity scale is not finite"};
+  return {};
+}
+
 Status check_body(const RigidBody& body) {
   if (const Status status = check_pose(body.pose); !status) return status;
   if (!all_finite(body.linear_velocity))
     return {StatusCode::NotFinite, "linear velocity is not finite [m/s]"};
   if (!all_finite(body.angular_velocity))
     return {StatusCode::NotFinite, "angular velocity is not finite [rad/s]"};
-  if (!std::isfinite(body.linear_damping) || body.linear_damping < 0)
-    return {StatusCode::OutOfRange, "linear damping must be finite and not negative [1/s]"};
-  if (!std::isfinite(body.angular_damping) || body.angular_damping < 0)
-    return {StatusCode::OutOfRange, "angular damping must be finite and not negative [1/s]"};
-  if (!std::isfinite(body.gravity_scale))
-    return {StatusCode::NotFinite, "gravity scale is not finite"};
-  if (body.type != MotionType::Static && body.type != MotionType::Kinematic &&
-      body.type != MotionType::Dynamic)
-    return {StatusCode::OutOfRange, "motion type must be Static, Kinematic or Dynamic"};
+  if (const Status status = check_damping(body.linear_damping, body.angular_damping); !status)
+    return status;
+  if (const Status status = check_gravity_scale(body.gravity_scale); !status) return status;
+  if (const Status status = check_motion_type(body.type); !status) return status;
   if (body.type == MotionType::Static &&
       (body.linear_velocity.squaredNorm() > 0 || body.angular_velocity.squaredNorm() > 0))
     return {StatusCode::WrongMotionType, "a static body cannot have a velocity: make it kinematic"};
@@ -55,32 +69,50 @@ Status check_material_pair(const MaterialPair& values) {
                        values.torsional_friction.value_or(Real(0)));
 }
 
-Status check_collider(const Collider& collider, MotionType type) {
-  if (const Status status = check_shape(collider.shape); !status) return status;
-  if (!all_finite(collider.pose.position))
-    return {StatusCode::NotFinite, "collider position is not finite [m]"};
-  if (const Status status = check_orientation(collider.pose.orientation); !status) return status;
-  const Material& m = collider.material;
-  if (const Status status =
-          check_surface(m.friction, m.restitution, m.rolling_friction, m.torsional_friction);
-      !status)
-    return status;
-  if (const Status status = check_surface_velocity(collider.surface_velocity); !status)
-    return status;
-  if (!all_finite(collider.one_way))
+Status check_material(const Material& m) {
+  if (m.friction_rule > CombineRule::Multiply || m.restitution_rule > CombineRule::Multiply)
+    return {StatusCode::OutOfRange, "the combine rule is none of its values"};
+  return check_surface(m.friction, m.restitution, m.rolling_friction, m.torsional_friction);
+}
+
+Status check_one_way(const Vec3& direction) {
+  if (!all_finite(direction))
     return {StatusCode::NotFinite, "the direction of a one-way collider is not finite"};
-  if (!std::isfinite(collider.density) || collider.density < 0)
+  return {};
+}
+
+Status check_density(double density) {
+  if (!std::isfinite(density) || density < 0)
     return {StatusCode::OutOfRange, "density must be finite and not negative [kg/m^3]"};
-  if (std::holds_alternative<HalfSpace>(collider.shape) && type != MotionType::Static)
+  return {};
+}
+
+Status check_shape_fits(const Shape& shape, MotionType type) {
+  if (std::holds_alternative<HalfSpace>(shape) && type != MotionType::Static)
     return {StatusCode::BadShape,
             "a half-space has no end and no mass: only static bodies may have one"};
-  if ((std::holds_alternative<SurfaceMesh>(collider.shape) ||
-       std::holds_alternative<Heightfield>(collider.shape)) &&
+  if ((std::holds_alternative<SurfaceMesh>(shape) || std::holds_alternative<Heightfield>(shape)) &&
       type == MotionType::Dynamic)
     return {StatusCode::BadShape,
             "a mesh or heightfield is a surface without inside: for a dynamic body use its convex "
             "hull, or cut it into convex parts and make them a Compound"};
   return {};
+}
+
+Status check_collider(const Collider& collider, MotionType type) {
+  for (const Status& status :
+       {check_shape(collider.shape), check_local_pose(collider.pose),
+        check_material(collider.material), check_surface_velocity(collider.surface_velocity),
+        check_one_way(collider.one_way), check_density(collider.density),
+        check_shape_fits(collider.shape, type)})
+    if (!status) return status;
+  return {};
+}
+
+Status check_added_mass(const Collider& collider) {
+  if (collider.is_sensor || collider.density == 0) return {};
+  const ShapeMass added = mass_of(collider.shape, collider.density);
+  return added.status.ok() ? check(added.properties) : added.status;
 }
 
 }  // namespace detail

@@ -38,9 +38,25 @@ inline Status check_pose(const Pose& pose) {
   return check_orientation(pose.orientation);
 }
 
+inline Status check_local_pose(const LocalPose& pose) {
+  if (!all_finite(pose.position))
+    return {StatusCode::NotFinite, "collider position is not finite [m]"};
+  return check_orientation(pose.orientation);
+}
+
+Status check_motion_type(MotionType type);
+Status check_damping(Real linear, Real angular);
+Status check_gravity_scale(Real scale);
 Status check_body(const RigidBody& body);
 Status check_surface_velocity(const SurfaceVelocity& velocity);
 Status check_material_pair(const MaterialPair& values);
+Status check_material(const Material& material);
+Status check_one_way(const Vec3& direction);
+Status check_density(double density);
+// Whether a body of that type may have the shape.
+Status check_shape_fits(const Shape& shape, MotionType type);
 Status check_collider(const Collider& collider, MotionType type);
+// Whether what the collider adds to its body's mass is the mass of a body, and fits the numbers.
+Status check_added_mass(const Collider& collider);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -109,12 +109,8 @@ Created<ColliderId> PhysicsWorld::create_collider(BodyId body, const Collider& c
   if (const Status status = detail::check_collider(collider, owner.type); !status)
     return {{}, status};
   // The mass that the body would have must be that of a body, and fit the number type.
-  if (owner.type == MotionType::Dynamic && !owner.has_own_mass && !collider.is_sensor &&
-      collider.density > 0) {
-    const ShapeMass added = mass_of(collider.shape, collider.density);
-    if (!added.status.ok()) return {{}, added.status};
-    if (const Status status = check(added.properties); !status) return {{}, status};
-  }
+  if (owner.type == MotionType::Dynamic && !owner.has_own_mass)
+    if (const Status status = detail::check_added_mass(collider); !status) return {{}, status};
   detail::note_input(world, InputKind::CreateCollider, body.value(),
                      [&](auto& out) { detail::append(out, collider); });
 
@@ -172,24 +168,6 @@ Status PhysicsWorld::set_settings(const WorldSettings& settings) {
       if (world.bodies.info[slot].alive && world.bodies.info[slot].island != detail::kNone)
         detail::wake_body(world, slot);
   }
-  return {};
-}
-
-Status PhysicsWorld::set_mass(BodyId body, const MassProperties& properties) {
-  detail::WorldState& world = *state_;
-  if (world.stepping) return detail::inside_step();
-  if (!is_valid(body)) return detail::stale_body();
-  if (world.bodies.info[body.index].type != MotionType::Dynamic)
-    return {StatusCode::WrongMotionType, "only dynamic bodies have a mass"};
-  if (const Status status = check(properties); !status) return status;
-  detail::note_input(world, InputKind::SetMass, body.value(),
-                     [&](auto& out) { detail::append(out, properties); });
-  detail::BodyInfo& info = world.bodies.info[body.index];
-  detail::wake_body(world, body.index);
-  info.has_own_mass = true;
-  info.properties = properties;
-  detail::update_mass(world, body.index);
-  for (const std::uint32_t collider : info.colliders) detail::update_proxy(world, collider, true);
   return {};
 }
 

@@ -226,6 +226,28 @@ void link_joined(WorldState& world) {
   }
 }
 
+void rest_idle_joints(WorldState& world) {
+  const auto holds_a_dynamic = [&](const JointInfo& joint) {
+    return (joint.body_a != kWorldBody &&
+            world.bodies.info[joint.body_a].type == MotionType::Dynamic) ||
+           (joint.body_b != kWorldBody &&
+            world.bodies.info[joint.body_b].type == MotionType::Dynamic);
+  };
+  for (JointInfo& joint : world.joints.info) {
+    if (!joint.alive) continue;
+    JointId first, second;
+    const bool coupling = coupled_joints(joint.component.kind, first, second);
+    if (coupling ? holds_a_dynamic(world.joints.info[first.index]) ||
+                       holds_a_dynamic(world.joints.info[second.index])
+                 : holds_a_dynamic(joint))
+      continue;
+    JointMemory idle;
+    idle.angle = joint.memory.angle;
+    idle.zero = joint.memory.zero;
+    joint.memory = idle;
+  }
+}
+
 void break_joints(WorldState& world) {
   for (const std::uint32_t slot : world.joints.scratch->active) {
     const JointInfo& joint = world.joints.info[slot];
@@ -246,6 +268,7 @@ Created<JointId> PhysicsWorld::create_joint(const Joint& joint) {
   detail::WorldState& world = *state_;
   if (world.stepping) return {{}, detail::inside_step()};
   if (const Status status = detail::check_joint(world, joint); !status) return {{}, status};
+  if (const Status status = detail::check_joint_moves(world, joint); !status) return {{}, status};
   detail::note_input(world, InputKind::CreateJoint, 0,
                      [&](auto& out) { detail::append(out, joint); });
   const std::uint32_t slot = world.joints.create();

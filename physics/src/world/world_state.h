@@ -154,6 +154,7 @@ inline void parallel_for(const WorldState& world, std::uint32_t count, std::uint
 
 // --- bodies (world/body_mass.cpp, body_motion.h) ---
 void update_mass(WorldState& world, std::uint32_t body);
+void update_locks(WorldState& world, std::uint32_t body);
 void update_collider_frames(WorldState& world, std::uint32_t body);
 void refresh_velocity(WorldState& world, std::uint32_t body);
 

@@ -134,6 +134,22 @@ struct SceneJoint {
   int line = 0;
 };
 
+// What two kinds of material do when they meet, instead of what their numbers combine to.
+struct SceneMaterialPair {
+  std::uint32_t kind_a = 0, kind_b = 0;  // of Material::kind, not 0, in any order
+  MaterialPair values;
+  int line = 0;
+};
+
+// Two bodies that never meet, or two colliders of theirs.
+struct SceneExclusion {
+  struct Side {
+    std::string body;                     // name, of a copy "name[3]"
+    std::optional<std::size_t> collider;  // its place among the body's colliders; on both sides
+  } a, b;
+  int line = 0;
+};
+
 struct Scene {
   std::string source;  // the file, for error texts
   std::string name;
@@ -141,10 +157,12 @@ struct Scene {
   SceneStep step;
   WorldSettings settings;
   std::vector<SceneMaterial> materials;
+  std::vector<SceneMaterialPair> material_pairs;
   std::vector<SceneMesh> meshes;
   std::vector<SceneHeightfield> heightfields;
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
+  std::vector<SceneExclusion> excluded_pairs;
 
   [[nodiscard]] std::size_t body_count() const;  // with all copies
   // Null if there is none of that name.

@@ -49,6 +49,25 @@ typedef enum plumb_motion_type {
   PLUMB_DYNAMIC = 2
 } plumb_motion_type;
 
+/* Axes that a body must not move along or turn about, to be added up. */
+typedef enum plumb_lock {
+  PLUMB_LOCK_LINEAR_X = 1,
+  PLUMB_LOCK_LINEAR_Y = 2,
+  PLUMB_LOCK_LINEAR_Z = 4,
+  PLUMB_LOCK_ANGULAR_X = 8,
+  PLUMB_LOCK_ANGULAR_Y = 16,
+  PLUMB_LOCK_ANGULAR_Z = 32
+} plumb_lock;
+
+/* How two materials combine; where they name different rules, the later one wins. */
+typedef enum plumb_combine_rule {
+  PLUMB_AVERAGE = 0,
+  PLUMB_GEOMETRIC_MEAN = 1,
+  PLUMB_MINIMUM = 2,
+  PLUMB_MAXIMUM = 3,
+  PLUMB_MULTIPLY = 4
+} plumb_combine_rule;
+
 typedef struct plumb_settings {
   double gravity[3]; /* [m/s^2] */
   int32_t substeps;  /* [-] 1..64 */
@@ -73,6 +92,41 @@ typedef struct plumb_surface {
   double orientation[4]; /* unit quaternion x, y, z, w */
 } plumb_surface;
 
+typedef struct plumb_mass {
+  double mass;       /* [kg] > 0 */
+  double center[3];  /* [m] in the body frame */
+  double inertia[6]; /* [kg m^2] about the centre, body axes: xx, yy, zz, and xy, xz, yz with the
+                        minus signs in */
+} plumb_mass;
+
+typedef struct plumb_material {
+  double friction;           /* [-] >= 0 */
+  double restitution;        /* [-] 0..1 */
+  double rolling_friction;   /* [m] >= 0, lever arm of the contact force */
+  double torsional_friction; /* [m] >= 0, likewise */
+  int32_t friction_rule;     /* plumb_combine_rule */
+  int32_t restitution_rule;  /* plumb_combine_rule */
+  uint32_t kind;             /* for plumb_set_material_pair; 0: nothing in particular */
+} plumb_material;
+
+/* The values of a plumb_material_pair that count, to be added up. */
+typedef enum plumb_pair_value {
+  PLUMB_PAIR_FRICTION = 1,
+  PLUMB_PAIR_RESTITUTION = 2,
+  PLUMB_PAIR_ROLLING_FRICTION = 4,
+  PLUMB_PAIR_TORSIONAL_FRICTION = 8
+} plumb_pair_value;
+
+/* What two kinds of material do when they meet. Values that are not given are combined from the two
+ * materials as ever. */
+typedef struct plumb_material_pair {
+  uint32_t given;            /* sum of plumb_pair_value */
+  double friction;           /* [-] >= 0 */
+  double restitution;        /* [-] 0..1 */
+  double rolling_friction;   /* [m] >= 0 */
+  double torsional_friction; /* [m] >= 0 */
+} plumb_material_pair;
+
 typedef struct plumb_pose {
   plumb_body body;
   uint64_t user_data;
@@ -96,6 +150,7 @@ const char* plumb_version(void);
 plumb_settings plumb_settings_default(void);
 plumb_body_def plumb_body_default(void); /* dynamic, at rest, at the origin */
 plumb_surface plumb_surface_default(void);
+plumb_material plumb_material_default(void);
 
 /* settings: NULL for the defaults. */
 plumb_status plumb_world_create(const plumb_settings* settings, plumb_world** out);
@@ -110,11 +165,28 @@ plumb_status plumb_body_set_pose(plumb_world* world, plumb_body body, const doub
                                  const double orientation[4]);
 plumb_status plumb_body_apply_impulse(plumb_world* world, plumb_body body, const double impulse[3]);
 
+/* What a body was made with, changed while it lives; see plumb/world.h for what follows. */
+plumb_status plumb_body_set_motion_type(plumb_world* world, plumb_body body, int32_t type);
+plumb_status plumb_body_set_locks(plumb_world* world, plumb_body body, uint32_t locks);
+plumb_status plumb_body_set_damping(plumb_world* world, plumb_body body, double linear,
+                                    double angular); /* [1/s] >= 0 */
+plumb_status plumb_body_set_gravity_scale(plumb_world* world, plumb_body body, double scale);
+plumb_status plumb_body_set_can_sleep(plumb_world* world, plumb_body body, int32_t can_sleep);
+plumb_status plumb_body_set_continuous(plumb_world* world, plumb_body body, int32_t continuous);
+plumb_status plumb_body_set_user_data(plumb_world* world, plumb_body body, uint64_t user_data);
+plumb_status plumb_body_set_mass(plumb_world* world, plumb_body body, const plumb_mass* mass);
+/* Takes it back: mass from the densities of the colliders again. */
+plumb_status plumb_body_derive_mass(plumb_world* world, plumb_body body);
+
 /* surface: NULL for the defaults. out: NULL if the collider's handle is of no use. */
 plumb_status plumb_add_sphere(plumb_world* world, plumb_body body, double radius,
                               const plumb_surface* surface, plumb_collider* out);
 plumb_status plumb_add_box(plumb_world* world, plumb_body body, const double half_extents[3],
                            const plumb_surface* surface, plumb_collider* out);
+/* rounding: >= 0, radius of a ball added outside of the box [m]. */
+plumb_status plumb_add_rounded_box(plumb_world* world, plumb_body body,
+                                   const double half_extents[3], double rounding,
+                                   const plumb_surface* surface, plumb_collider* out);
 /* Along the y axis of the shape. */
 plumb_status plumb_add_capsule(plumb_world* world, plumb_body body, double half_length,
                                double radius, const plumb_surface* surface, plumb_collider* out);
@@ -125,6 +197,52 @@ plumb_status plumb_add_cylinder(plumb_world* world, plumb_body body, double half
                                 plumb_collider* out);
 plumb_status plumb_add_cone(plumb_world* world, plumb_body body, double half_length, double radius,
                             double rounding, const plumb_surface* surface, plumb_collider* out);
+
+plumb_status plumb_collider_destroy(plumb_world* world, plumb_collider collider);
+
+/* What a collider was made with, changed while it lives. Shapes as in plumb_add_...; they keep
+ * their handle, place and material. */
+plumb_status plumb_collider_set_sphere(plumb_world* world, plumb_collider collider, double radius);
+plumb_status plumb_collider_set_box(plumb_world* world, plumb_collider collider,
+                                    const double half_extents[3], double rounding);
+plumb_status plumb_collider_set_capsule(plumb_world* world, plumb_collider collider,
+                                        double half_length, double radius);
+plumb_status plumb_collider_set_cylinder(plumb_world* world, plumb_collider collider,
+                                         double half_length, double radius, double rounding);
+plumb_status plumb_collider_set_cone(plumb_world* world, plumb_collider collider,
+                                     double half_length, double radius, double rounding);
+plumb_status plumb_collider_set_pose(plumb_world* world, plumb_collider collider,
+                                     const double position[3],
+                                     const double orientation[4]); /* in the body frame */
+plumb_status plumb_collider_set_density(plumb_world* world, plumb_collider collider,
+                                        double density);
+plumb_status plumb_collider_set_sensor(plumb_world* world, plumb_collider collider,
+                                       int32_t is_sensor);
+plumb_status plumb_collider_set_user_data(plumb_world* world, plumb_collider collider,
+                                          uint64_t user_data);
+plumb_status plumb_collider_set_material(plumb_world* world, plumb_collider collider,
+                                         const plumb_material* material);
+plumb_status plumb_collider_get_material(plumb_world* world, plumb_collider collider,
+                                         plumb_material* out);
+/* How the surface runs over its body, in the axes of the collider. NULL: not at all. */
+plumb_status plumb_collider_set_surface_velocity(plumb_world* world, plumb_collider collider,
+                                                 const double linear[3],   /* [m/s] */
+                                                 const double angular[3]); /* [rad/s] */
+/* The side from which it is solid, a direction out of it in its axes; zero: from everywhere. */
+plumb_status plumb_collider_set_one_way(plumb_world* world, plumb_collider collider,
+                                        const double direction[3]);
+/* layers, collides_with: bits. Two of one group that is not 0 always meet if it is positive, never
+ * if it is negative. */
+plumb_status plumb_collider_set_filter(plumb_world* world, plumb_collider collider, uint32_t layers,
+                                       uint32_t collides_with, int32_t group);
+
+/* kinds: of plumb_material, not 0, in any order. values: NULL takes the entry away. */
+plumb_status plumb_set_material_pair(plumb_world* world, uint32_t kind_a, uint32_t kind_b,
+                                     const plumb_material_pair* values);
+/* Excluded, two bodies or colliders never meet; excluded = 0 lets them again. */
+plumb_status plumb_exclude_bodies(plumb_world* world, plumb_body a, plumb_body b, int32_t excluded);
+plumb_status plumb_exclude_colliders(plumb_world* world, plumb_collider a, plumb_collider b,
+                                     int32_t excluded);
 
 plumb_status plumb_step(plumb_world* world, double dt);
 double plumb_time(const plumb_world* world); /* [s] simulated */
