@@ -144,6 +144,11 @@ Result<Decomposition> decompose(const TriangleMesh& mesh, const MeshCertificate&
       cut_apart(std::move(whole), solid, tolerances, kPiecesPerPart * options.max_parts);
   detail::join_parts(parts, solid, tolerances, options.max_parts);
 
+  if (parts.size() > options.max_parts) {
+    return Error{name + "they could not be joined to " + std::to_string(options.max_parts) +
+                 "; allow " + std::to_string(parts.size())};
+  }
+
   Decomposition out;
   out.report.mesh_volume = volume;
   out.report.max_distance = limit;

@@ -10,8 +10,8 @@ namespace plumb::inline PLUMB_ABI::assets::detail {
 // keeps the limit by less than a sixteenth of it may be a no.
 bool stays_within(const PartHull& part, const SolidField& solid, double limit);
 
-// The distance from the solid of the farthest point that was looked at; no other is farther by more
-// than `resolution` > 0.
+// The distance from the solid of the farthest point of the part that was looked at, with points
+// `resolution` > 0 apart where it might be exceeded.
 double reach_beyond(const PartHull& part, const SolidField& solid, double resolution);
 
 }  // namespace plumb::inline PLUMB_ABI::assets::detail

@@ -9,6 +9,10 @@
 namespace plumb::inline PLUMB_ABI::assets::detail {
 namespace {
 
+// A joined part may share no more than this of its volume with others: what lies in two parts has
+// contacts twice.
+constexpr double kMostShared = 0.01;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // What the common hulls of all pairs fill beyond the two.
@@ -60,6 +64,15 @@ class Pairs {
   std::vector<double> cost_;
 };
 
+bool shares_little(const PartHull& both, const std::vector<PartHull>& parts,
+                   const Pairs::Pair& pair) {
+  double shared = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (k != pair.first && k != pair.second && !parts[k].corners.empty())
+      shared += shared_volume(both, parts[k]);
+  return shared <= kMostShared * both.volume;
+}
+
 void drop_empty(std::vector<PartHull>& parts) {
   std::erase_if(parts, [](const PartHull& part) { return part.corners.empty(); });
 }
@@ -71,7 +84,7 @@ void join_parts(std::vector<PartHull>& parts, const SolidField& solid, const Tol
   Pairs near(parts, tolerances.limit);
   for (Pairs::Pair pair = near.cheapest(); pair.cost < kNever; pair = near.cheapest()) {
     std::optional<PartHull> both = joined(parts[pair.first], parts[pair.second]);
-    if (both && stays_within(*both, solid, tolerances.limit)) {
+    if (both && shares_little(*both, parts, pair) && stays_within(*both, solid, tolerances.limit)) {
       // Nothing filled: the two were halves of one convex part.
       both->reach = pair.cost <= tolerances.film
                         ? std::max(parts[pair.first].reach, parts[pair.second].reach)

@@ -10,8 +10,9 @@
 
 namespace plumb::inline PLUMB_ABI::assets::detail {
 
-// First all pairs whose common hull stays within the limit, the one that fills least
-// first; then, while there are more than `max_parts`, the one that fills least, whatever it fills.
+// First all pairs whose common hull stays within the limit and out of the other parts, the one that
+// fills least first; then, while there are more than `max_parts`, the one that fills least,
+// whatever it fills.
 void join_parts(std::vector<PartHull>& parts, const SolidField& solid, const Tolerances& tolerances,
                 std::size_t max_parts);
 

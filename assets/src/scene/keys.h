@@ -23,8 +23,9 @@ inline constexpr std::string_view kSettings[] = {
     "rotation", "warm_starting", "sleeping",          "time_to_sleep"};
 inline constexpr std::string_view kMaterial[] = {"friction", "restitution", "friction_rule",
                                                  "restitution_rule"};
-inline constexpr std::string_view kMesh[] = {"file",    "metres_per_unit",   "up",     "collision",
-                                             "density", "max_hull_vertices", "mass_of"};
+inline constexpr std::string_view kMesh[] = {"file",    "metres_per_unit",   "up",      "collision",
+                                             "density", "max_hull_vertices", "mass_of", "parts"};
+inline constexpr std::string_view kMeshParts[] = {"max_distance", "max_parts", "max_vertices"};
 inline constexpr std::string_view kMassOf[] = {"method", "thickness", "resolution"};
 inline constexpr std::string_view kBody[] = {"name",
                                              "type",
@@ -116,11 +117,12 @@ struct Named {
   std::string_view name;
   Keys keys;
 };
-inline constexpr std::array<Named, 21> kAll{{{"scene", kScene},
+inline constexpr std::array<Named, 22> kAll{{{"scene", kScene},
                                              {"step", kStep},
                                              {"settings", kSettings},
                                              {"material", kMaterial},
                                              {"mesh", kMesh},
+                                             {"mesh_parts", kMeshParts},
                                              {"mass_of", kMassOf},
                                              {"body", kBody},
                                              {"mass", kMass},
@@ -192,7 +194,7 @@ inline constexpr std::string_view kRotationMethods[] = {"exact", "implicit_gyro"
 inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum",
                                                      "maximum", "multiply"};
 inline constexpr std::string_view kAxes[] = {"x", "y", "z"};
-inline constexpr std::string_view kCollisions[] = {"hull", "surface"};
+inline constexpr std::string_view kCollisions[] = {"hull", "surface", "parts"};
 inline constexpr std::string_view kMassMethods[] = {"solid", "shell", "hull", "voxel"};
 inline constexpr std::string_view kLocks[] = {"linear_x",  "linear_y",  "linear_z",
                                               "angular_x", "angular_y", "angular_z"};

@@ -45,13 +45,13 @@ struct DecompositionReport {
   double overlap_volume = 0;      // [m^3] sum over pairs of parts of what they share
   double largest_overlap = 0;     // [m^3] of one pair
   double max_distance = 0;        // [m] as asked for
-  // No point of a part is farther from the solid than this [m]: a bound, found by halving boxes.
+  // The farthest from the solid, of points of the parts max_distance / 4 apart [m].
   double parts_beyond_mesh = 0;
   // The farthest that a point of the mesh lies outside of all parts [m]: the largest of samples on
   // every face, what simplifying the parts cost. 0 up to rounding where none was simplified.
   double mesh_beyond_parts = 0;
   std::size_t samples = 0;       // of mesh_beyond_parts
-  bool within_distance = false;  // both are at most max_distance
+  bool within_distance = false;  // both are at most max_distance; of the parts, proven
 
   // One line for people, or several where something is worth a word.
   [[nodiscard]] std::string text() const;
