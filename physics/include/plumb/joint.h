@@ -154,13 +154,12 @@ struct Joint {
   std::uint64_t user_data = 0;     // the engine's own, never looked at
 };
 
+// The shortest turn that takes x to `axis` (any length > 0; no turn for a length of 0). Of the
+// opposite direction: half a turn about z.
+Quat turn_from_x(const Vec3& axis);
+
 // A joint frame at a point of a body, its x axis along `axis` (any length > 0).
-inline LocalPose joint_frame(const Vec3& point, const Vec3& axis = Vec3::UnitX()) {
-  LocalPose frame;
-  frame.position = point;
-  frame.orientation = Quat::FromTwoVectors(Vec3::UnitX(), axis);
-  return frame;
-}
+LocalPose joint_frame(const Vec3& point, const Vec3& axis = Vec3::UnitX());
 
 // --- read-out ------------------------------------------------------------------------------------
 
