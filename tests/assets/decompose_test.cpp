@@ -150,9 +150,9 @@ TEST(Decompose, AConvexMeshIsItsHull) {
 // Measured against the round torus itself, of which the mesh is inscribed.
 TEST(Decompose, ATorusKeepsItsHole) {
   constexpr double kRing = 0.3, kTube = 0.1;
-  const TriangleMesh mesh = torus_mesh(kRing, kTube, 10);
+  const TriangleMesh mesh = torus_mesh(kRing, kTube, 16);
   std::size_t coarser = 0;
-  for (const double distance : {0.04, 0.01}) {
+  for (const double distance : {0.04, 0.015}) {
     const Decomposition made = parts_of(mesh, {.max_distance = distance});
     const DecompositionReport& report = made.report;
     SCOPED_TRACE(report.text());

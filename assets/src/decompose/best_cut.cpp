@@ -19,8 +19,9 @@ constexpr std::size_t kEdgesTimesPlanes = 1'000'000;
 constexpr int kRefinements = 2;
 // A side smaller than this share of the piece is a splinter that nothing stands on.
 constexpr double kSplinter = 1e-4;
-// Where no plane gains much, as at the first cut of a ring, what is cut evenly and across the
-// narrow way gains later. Both are small against what the hulls fill.
+// Where no plane gains much, as at the first cut of a ring or of a box with a cavity, what is cut
+// along concave edges, evenly and across the narrow way gains later.
+constexpr double kConcaveLeft = 0.3;
 constexpr double kUnevenness = 0.1;
 constexpr double kCutArea = 0.1;
 
@@ -102,10 +103,19 @@ std::vector<Vector3d> directions_of(const Piece& piece) {
   return directions;
 }
 
+double depth_of(const std::vector<ConcaveEdge>& edges) {
+  double depth = 0;
+  for (const ConcaveEdge& edge : edges) depth += (edge.b - edge.a).norm() * edge.angle;
+  return depth;
+}
+
 class Search {
  public:
   Search(const Node& node, double on_plane)
-      : node_(node), on_plane_(on_plane), spiral_(spiral_directions()) {}
+      : node_(node),
+        on_plane_(on_plane),
+        whole_depth_(depth_of(node.concave)),
+        spiral_(spiral_directions()) {}
 
   std::optional<BestCut> run() {
     std::vector<Trial> trials = glances();
@@ -174,6 +184,10 @@ class Search {
     if (!(front.volume > kSplinter * whole && back.volume > kSplinter * whole)) return trial;
     double score = kUnevenness * std::abs(front.volume - back.volume) / whole +
                    kCutArea * front.cap_area / (size * size);
+    if (whole_depth_ > 0)
+      score += kConcaveLeft / whole_depth_ *
+               (depth_of(in_front(node_.concave, plane, on_plane_)) +
+                depth_of(in_front(node_.concave, plane.flipped(), on_plane_)));
     const auto add_hull = [&](const Piece& side, PartHull& hull) {
       if (!(score < limit)) return false;
       std::vector<Vector3d> points = points_of(side);
@@ -195,6 +209,7 @@ class Search {
 
   const Node& node_;
   double on_plane_;
+  double whole_depth_;
   std::vector<Vector3d> spiral_;
   Trial best_;
 };
