@@ -56,6 +56,7 @@ TEST(SceneSchema, KnowsTheWordsOfTheLoader) {
   EXPECT_EQ(enum_of("settings", "rotation"), words(scene_keys::kRotationMethods));
   EXPECT_EQ(enum_of("mesh", "up"), words(scene_keys::kAxes));
   EXPECT_EQ(enum_of("mesh", "collision"), words(scene_keys::kCollisions));
+  EXPECT_EQ(enum_of("mesh", "collision"), words(scene_keys::kCollisions));
   EXPECT_EQ(enum_of("mass_of", "method"), words(scene_keys::kMassMethods));
   EXPECT_EQ(words_of(d.at("combine_rule").at("enum")), words(scene_keys::kCombineRules));
   EXPECT_EQ(words_of(d.at("body").at("properties").at("locks").at("items").at("enum")),
@@ -128,7 +129,9 @@ TEST(SceneSchema, TellsTheDefaultsOfTheLoader) {
                {"step", json::object()},
                {"settings", json::object()},
                {"materials", {{"m", json::object()}}},
-               {"meshes", {{"k", {{"file", "k.obj"}, {"collision", "hull"}}}}},
+               {"meshes",
+                {{"k", {{"file", "k.obj"}, {"collision", "hull"}}},
+                 {"p", {{"file", "p.obj"}, {"collision", "parts"}}}}},
                {"heightfields", {{"f", {{"spacing", {1, 1}}, {"heights", {{0, 0}, {0, 0}}}}}}}};
   json body = {
       {"name", "b"}, {"type", "static"}, {"colliders", json::array({{{"shape", "half_space"}}})}};
@@ -164,6 +167,7 @@ TEST(SceneSchema, TellsTheDefaultsOfTheLoader) {
   full["settings"].update(defaults_of("settings"));
   full["materials"]["m"].update(defaults_of("material"));
   full["meshes"]["k"].update(defaults_of("mesh"));
+  full["meshes"]["p"]["parts"] = defaults_of("mesh_parts");
   json full_body = defaults_of("body");
   full_body.update(body);
   full_body["repeat"].update(defaults_of("repeat"));

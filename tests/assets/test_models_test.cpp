@@ -18,7 +18,8 @@ namespace {
 using namespace assets;
 
 const std::filesystem::path kModels = "/usr/share/assimp/models";
-constexpr double kTimeLimit = 120;  // [s] of one file; a guard against hanging, not a speed test
+constexpr std::size_t kMostPartsOfAFile = 6;  // few, so that large models do not take minutes
+constexpr double kTimeLimit = 120;     // [s] of one file; a guard against hanging, not a speed test
 
 struct Walk {
   std::size_t files = 0, read = 0, solid = 0, refused = 0;
@@ -46,6 +47,13 @@ void expect_sound(const MeshInspection& inspection) {
         ((c.bounds.upper - inspection.mass->center).array() >= -1e-9 * c.bounds.diagonal()).all());
   }
   EXPECT_EQ(inspection.hull.has_value(), inspection.hull_error.empty());
+  // A solid has convex parts; anything else says why not.
+  EXPECT_EQ(inspection.parts.has_value(), c.solid) << inspection.parts_error;
+  EXPECT_EQ(inspection.parts.has_value(), inspection.parts_error.empty());
+  if (inspection.parts) {
+    EXPECT_LE(inspection.parts->parts, kMostPartsOfAFile);
+    EXPECT_GT(inspection.parts->parts_volume, 0);
+  }
   EXPECT_FALSE(to_text(inspection).empty());
   EXPECT_FALSE(to_json(inspection).empty());
 }
@@ -60,6 +68,7 @@ TEST(TestModels, EveryFileGivesACertificateOrAClearError) {
   std::sort(paths.begin(), paths.end());
   InspectOptions options{.guarded = true, .time_limit = kTimeLimit};
   options.hull.max_vertices = kColliderHullVertices;
+  options.parts = DecomposeOptions{.max_parts = kMostPartsOfAFile};
   Walk walk;
   for (const std::string& path : paths) {
     SCOPED_TRACE(path);

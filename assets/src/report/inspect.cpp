@@ -25,6 +25,15 @@ Result<MeshInspection> inspect_mesh_file(const std::string& path, const InspectO
   } else {
     inspection.hull_error = hull.error();
   }
+  if (options.parts) {
+    const Result<Decomposition> parts =
+        decompose(inspection.mesh, inspection.certificate, *options.parts);
+    if (parts) {
+      inspection.parts = parts->report;
+    } else {
+      inspection.parts_error = parts.error();
+    }
+  }
   return inspection;
 }
 

@@ -118,6 +118,21 @@ Json hull_json(const HullMesh& h) {
           {"simplification_volume_loss", h.simplification_volume_loss}};
 }
 
+Json parts_json(const DecompositionReport& p) {
+  return {{"parts", p.parts},
+          {"vertices", p.vertices},
+          {"most_vertices", p.most_vertices},
+          {"mesh_volume", p.mesh_volume},
+          {"parts_volume", p.parts_volume},
+          {"overlap_volume", p.overlap_volume},
+          {"largest_overlap", p.largest_overlap},
+          {"max_distance", p.max_distance},
+          {"parts_beyond_mesh", p.parts_beyond_mesh},
+          {"mesh_beyond_parts", p.mesh_beyond_parts},
+          {"samples", p.samples},
+          {"within_distance", p.within_distance}};
+}
+
 }  // namespace
 
 std::string to_json(const MeshInspection& inspection) {
@@ -130,6 +145,8 @@ std::string to_json(const MeshInspection& inspection) {
   if (!inspection.mass) json["mass_error"] = inspection.mass_error;
   json["hull"] = inspection.hull ? hull_json(*inspection.hull) : Json(nullptr);
   if (!inspection.hull) json["hull_error"] = inspection.hull_error;
+  if (inspection.parts) json["parts"] = parts_json(*inspection.parts);
+  if (!inspection.parts_error.empty()) json["parts_error"] = inspection.parts_error;
   // File names and texts of readers need not be UTF-8.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }

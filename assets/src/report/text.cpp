@@ -163,6 +163,16 @@ void write_hull(Page& page, const MeshInspection& inspection) {
   }
 }
 
+void write_parts(Page& page, const MeshInspection& inspection) {
+  if (!inspection.parts && inspection.parts_error.empty()) return;
+  page.heading(inspection.parts ? "convex parts" : "convex parts: none");
+  if (inspection.parts) {
+    page.row("decomposition", inspection.parts->text());
+  } else {
+    page.row("reason", inspection.parts_error);
+  }
+}
+
 }  // namespace
 
 std::string to_text(const MeshInspection& inspection) {
@@ -171,6 +181,7 @@ std::string to_text(const MeshInspection& inspection) {
   write_certificate(page, inspection.certificate);
   write_mass(page, inspection);
   write_hull(page, inspection);
+  write_parts(page, inspection);
   return page.text();
 }
 

@@ -108,7 +108,7 @@ Result<Template> make_template(const Scene& scene, const SceneBody& body, MeshSt
     if (!shape.ok()) return Error{shape.error()};
     collider.shape = std::move(shape).value();
     // A surface is drawn as what it collides as.
-    if (!part.mesh.empty() && std::holds_alternative<ConvexHull>(collider.shape))
+    if (!part.mesh.empty() && !std::holds_alternative<SurfaceMesh>(collider.shape))
       out.visuals.push_back({meshes.index_of(part.mesh).value(), collider.pose});
     out.colliders.push_back(std::move(collider));
   }

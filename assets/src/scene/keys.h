@@ -29,8 +29,9 @@ inline constexpr std::string_view kMaterialPair[] = {"kinds", "friction", "resti
                                                      "rolling_friction", "torsional_friction"};
 inline constexpr std::string_view kExcludedPair[] = {"body_a", "body_b", "collider_a",
                                                      "collider_b"};
-inline constexpr std::string_view kMesh[] = {"file",    "metres_per_unit",   "up",     "collision",
-                                             "density", "max_hull_vertices", "mass_of"};
+inline constexpr std::string_view kMesh[] = {"file",    "metres_per_unit",   "up",      "collision",
+                                             "density", "max_hull_vertices", "mass_of", "parts"};
+inline constexpr std::string_view kMeshParts[] = {"max_distance", "max_parts", "max_vertices"};
 inline constexpr std::string_view kMassOf[] = {"method", "thickness", "resolution"};
 inline constexpr std::string_view kBody[] = {"name",
                                              "type",
@@ -123,7 +124,7 @@ struct Named {
   std::string_view name;
   Keys keys;
 };
-inline constexpr std::array<Named, 24> kAll{{{"scene", kScene},
+inline constexpr std::array<Named, 25> kAll{{{"scene", kScene},
                                              {"step", kStep},
                                              {"settings", kSettings},
                                              {"material", kMaterial},
@@ -131,6 +132,7 @@ inline constexpr std::array<Named, 24> kAll{{{"scene", kScene},
                                              {"excluded_pair", kExcludedPair},
                                              {"surface_velocity", kSurfaceVelocity},
                                              {"mesh", kMesh},
+                                             {"mesh_parts", kMeshParts},
                                              {"mass_of", kMassOf},
                                              {"body", kBody},
                                              {"mass", kMass},
@@ -202,7 +204,7 @@ inline constexpr std::string_view kRotationMethods[] = {"exact", "implicit_gyro"
 inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum",
                                                      "maximum", "multiply"};
 inline constexpr std::string_view kAxes[] = {"x", "y", "z"};
-inline constexpr std::string_view kCollisions[] = {"hull", "surface"};
+inline constexpr std::string_view kCollisions[] = {"hull", "surface", "parts"};
 inline constexpr std::string_view kMassMethods[] = {"solid", "shell", "hull", "voxel"};
 inline constexpr std::string_view kLocks[] = {"linear_x",  "linear_y",  "linear_z",
                                               "angular_x", "angular_y", "angular_z"};

@@ -38,6 +38,16 @@ std::string MeshStore::make_surface(PreparedMesh& prepared) {
   return {};
 }
 
+std::string MeshStore::make_parts(PreparedMesh& prepared) {
+  const Result<Decomposition> decomposition = decompose(prepared.mesh, prepared.source->parts);
+  if (!decomposition.ok()) return decomposition.error();
+  Result<std::shared_ptr<const CompoundGeometry>> parts = to_physics(decomposition.value());
+  if (!parts.ok()) return parts.error();
+  prepared.parts = parts.value();
+  prepared.parts_report = decomposition->report;
+  return {};
+}
+
 Result<std::size_t> MeshStore::index_of(const std::string& name) {
   for (std::size_t k = 0; k < meshes_.size(); ++k)
     if (meshes_[k].source->name == name) return k;
@@ -53,8 +63,18 @@ Result<std::size_t> MeshStore::index_of(const std::string& name) {
   PreparedMesh prepared;
   prepared.source = source;
   prepared.mesh = std::move(imported.value().mesh);
-  const bool is_surface = source->collision == SceneMesh::Collision::Surface;
-  const std::string wrong = is_surface ? make_surface(prepared) : make_hull(prepared);
+  std::string wrong;
+  switch (source->collision) {
+    case SceneMesh::Collision::Hull:
+      wrong = make_hull(prepared);
+      break;
+    case SceneMesh::Collision::Surface:
+      wrong = make_surface(prepared);
+      break;
+    case SceneMesh::Collision::Parts:
+      wrong = make_parts(prepared);
+      break;
+  }
   if (!wrong.empty()) return Error{place_of(*source) + wrong};
   meshes_.push_back(std::move(prepared));
   return meshes_.size() - 1;
@@ -88,8 +108,12 @@ void MeshStore::move_into(SceneInstance& instance) {
                                std::to_string(mesh.surface->odd_edges()) +
                                " edges where triangles do not fit together; they can be felt");
     }
+    if (mesh.parts_report && !mesh.parts_report->within_distance)
+      instance.notes.push_back("mesh '" + out.name + "' collides as " + mesh.parts_report->text());
+    out.parts = std::move(mesh.parts);
+    out.parts_report = mesh.parts_report;
     out.hull = std::move(mesh.hull);
-    if (mesh.volume > 0) {
+    if (mesh.volume > 0 && out.hull) {
       const Result<MeshMass> hull_mass =
           mass_of_mesh(triangulated(mesh.hull_mesh), {.method = MassMethod::Hull});
       if (hull_mass.ok()) out.hull_excess = hull_mass->volume / mesh.volume - 1;

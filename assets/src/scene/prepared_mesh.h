@@ -1,5 +1,5 @@
-// The meshes of a scene, each read and turned into a hull or a surface once, when the first body
-// asks for it; its mass only when a moving body needs it.
+// The meshes of a scene, each read and turned into a hull, a surface or parts once, when the first
+// body asks for it; its mass only when a moving body needs it.
 #pragma once
 
 #include <memory>
@@ -15,11 +15,14 @@ struct PreparedMesh {
   const SceneMesh* source = nullptr;
   TriangleMesh mesh;
   HullMesh hull_mesh;
-  std::shared_ptr<const HullGeometry> hull;             // null: it collides as a surface
-  std::shared_ptr<const TriangleMeshGeometry> surface;  // null: it collides as a hull
-  std::optional<MassProperties> mass;                   // at the density of the scene's mesh
-  double density = 0;                                   // [kg/m^3] of `mass`
-  double volume = 0;                                    // [m^3] inside the mesh; 0 if not known
+  // What it collides as is one of the three, the others are null.
+  std::shared_ptr<const HullGeometry> hull;
+  std::shared_ptr<const TriangleMeshGeometry> surface;
+  std::shared_ptr<const CompoundGeometry> parts;
+  std::optional<DecompositionReport> parts_report;
+  std::optional<MassProperties> mass;  // at the density of the scene's mesh
+  double density = 0;                  // [kg/m^3] of `mass`
+  double volume = 0;                   // [m^3] inside the mesh; 0 if not known
 };
 
 class MeshStore {
@@ -28,7 +31,7 @@ class MeshStore {
 
   Result<std::size_t> index_of(const std::string& name);
   [[nodiscard]] const PreparedMesh& at(std::size_t index) const { return meshes_[index]; }
-  // Of a hull. With a density other than that of the mesh if one is given [kg/m^3] > 0.
+  // Of a hull or parts. With a density other than that of the mesh if one is given [kg/m^3] > 0.
   Result<MassProperties> mass_of(const std::string& name, std::optional<double> density);
   // Visual meshes, hulls and notes. The stored ones are gone then.
   void move_into(SceneInstance& instance);
@@ -38,6 +41,7 @@ class MeshStore {
   // An empty text: it went well.
   static std::string make_hull(PreparedMesh& prepared);
   static std::string make_surface(PreparedMesh& prepared);
+  static std::string make_parts(PreparedMesh& prepared);
 
   const plumb::PLUMB_ABI::assets::Scene& scene_;
   std::vector<PreparedMesh> meshes_;

@@ -10,10 +10,6 @@ namespace {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 // A quaternion typed with three decimals is that near to length one; farther off is a slip.
 constexpr double kUnitTolerance = 2e-3;
-constexpr int kFewestHullVertices = 4;
-constexpr int kMostHullVertices = 1024;
-constexpr int kCoarsestVoxels = 8;
-constexpr int kFinestVoxels = 512;
 constexpr int kMostSubsteps = 64;
 // Steps shorter or longer than these, and longer runs, are slips of a unit.
 constexpr Range kStepRange{1e-9, 1e3, false};   // [s]
@@ -66,67 +62,6 @@ void read_material(const JsonNode& node, const std::string& what, Material& mate
   in.number("rolling_friction", material.rolling_friction, kNotNegative);
   in.number("torsional_friction", material.torsional_friction, kNotNegative);
   in.integer("kind", material.kind, 0u, kLastKind);
-}
-
-void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, Problems& problems) {
-  const ObjectReader in(node, what, keys::kMesh, problems);
-  mesh.line = node.line;
-  if (!in.is_object()) return;
-  in.text("file", mesh.file);
-  if (!in.has("file")) {
-    in.missing("file", "name the mesh file, relative to the folder of the scene");
-  } else if (mesh.file.empty() && in.find("file")->kind == JsonNode::Kind::Text) {
-    problems.add(in.line_of("file"), "'file' of " + what + " is empty",
-                 "name the mesh file, relative to the folder of the scene");
-  }
-  double scale = 1;
-  if (in.number("metres_per_unit", scale, kPositive)) mesh.metres_per_unit = scale;
-  Axis up = Axis::Y;
-  if (in.choice("up", kAxes, up)) mesh.up = up;
-  in.choice("collision", kCollisions, mesh.collision);
-  if (!in.has("collision")) {
-    in.missing(
-        "collision",
-        "write \"collision\": \"hull\" to let it collide as its convex hull, the hollows of a "
-        "concave mesh filled, or \"surface\" for triangles that do not move freely");
-  }
-  if (mesh.collision == SceneMesh::Collision::Surface) {
-    for (const std::string_view key : {"max_hull_vertices", "density", "mass_of"}) {
-      if (!in.has(key)) continue;
-      problems.add(in.line_of(key),
-                   "'" + std::string(key) + "' of " + what + " has no meaning for a surface",
-                   "remove it or write \"collision\": \"hull\"");
-    }
-    return;
-  }
-  int vertices = static_cast<int>(mesh.max_hull_vertices);
-  in.integer("max_hull_vertices", vertices, kFewestHullVertices, kMostHullVertices);
-  mesh.max_hull_vertices = static_cast<std::size_t>(vertices);
-  in.number("density", mesh.mass.density, kPositive);
-
-  if (const JsonNode* method = in.find("mass_of")) {
-    const std::string part = "mass_of of " + what;
-    const ObjectReader mass(*method, part, keys::kMassOf, problems);
-    if (!mass.is_object()) return;
-    mass.choice("method", kMassMethods, mesh.mass.method);
-    mass.number("thickness", mesh.mass.shell_thickness, kPositive);
-    mass.integer("resolution", mesh.mass.voxel_resolution, kCoarsestVoxels, kFinestVoxels);
-    if (!mass.has("method")) mass.missing("method", "use one of solid, shell, hull, voxel");
-    const bool shell = mesh.mass.method == MassMethod::Shell;
-    if (shell && !mass.has("thickness")) {
-      mass.missing("thickness", "give the thickness of the shell in metres");
-    }
-    if (!shell && mass.has("thickness")) {
-      problems.add(mass.line_of("thickness"),
-                   "'thickness' has no meaning unless the method is shell",
-                   "remove it or write \"method\": \"shell\"");
-    }
-    if (mesh.mass.method != MassMethod::Voxel && mass.has("resolution")) {
-      problems.add(mass.line_of("resolution"),
-                   "'resolution' has no meaning unless the method is voxel",
-                   "remove it or write \"method\": \"voxel\"");
-    }
-  }
 }
 
 bool read_orientation(const ObjectReader& parent, Eigen::Quaterniond& orientation) {

@@ -101,16 +101,25 @@ void read_name(const ObjectReader& in, std::string_view key, const std::vector<T
 void read_mesh_shape(const ObjectReader& in, const Scene& scene, SceneCollider& collider) {
   read_name(in, "mesh", scene.meshes, "meshes", collider.mesh);
   const SceneMesh* mesh = scene.find_mesh(collider.mesh);
-  const bool is_surface = mesh && mesh->collision == SceneMesh::Collision::Surface;
-  const char* foreign = is_surface ? "rounding" : "scale";
-  if (mesh && in.knows(foreign) && in.has(foreign)) {
-    in.problems().add(in.line_of(foreign),
-                      "mesh '" + mesh->name + "' collides as a " +
-                          (is_surface ? "surface" : "hull") + ", which has no '" + foreign + "'",
-                      is_surface ? "remove it" : "remove it, or use metres_per_unit of the mesh");
+  const auto collision = mesh ? mesh->collision : SceneMesh::Collision::Hull;
+  const bool is_surface = collision == SceneMesh::Collision::Surface;
+  const bool is_hull = collision == SceneMesh::Collision::Hull;
+  for (const char* foreign : {"rounding", "scale"}) {
+    const bool belongs = foreign[0] == 'r' ? is_hull : is_surface;
+    if (!mesh || belongs || !in.knows(foreign) || !in.has(foreign)) continue;
+    in.problems().add(
+        in.line_of(foreign),
+        "mesh '" + mesh->name + "' collides as " +
+            (is_surface ? "a surface, which has"
+             : is_hull  ? "a hull, which has"
+                        : "parts, which have") +
+            " no '" + foreign + "'",
+        foreign[0] == 'r' ? "remove it" : "remove it, or use metres_per_unit of the mesh");
     return;
   }
-  if (is_surface) {
+  if (collision == SceneMesh::Collision::Parts) {
+    collider.collider.shape = Compound{};  // its geometry comes from the mesh
+  } else if (is_surface) {
     SurfaceMesh surface;  // its geometry comes from the mesh
     in.vector("scale", surface.scale, kPositive);
     collider.collider.shape = surface;
@@ -135,8 +144,10 @@ void read_child(const JsonNode& node, const std::string& what, const Scene& scen
   if (read_plain(in, word, child.child.shape)) return;
   read_name(in, "mesh", scene.meshes, "meshes", child.mesh);
   const SceneMesh* mesh = scene.find_mesh(child.mesh);
-  if (mesh && mesh->collision == SceneMesh::Collision::Surface) {
-    problems.add(in.line_of("mesh"), "mesh '" + mesh->name + "' collides as a surface",
+  if (mesh && mesh->collision != SceneMesh::Collision::Hull) {
+    const bool is_surface = mesh->collision == SceneMesh::Collision::Surface;
+    problems.add(in.line_of("mesh"),
+                 "mesh '" + mesh->name + "' collides as " + (is_surface ? "a surface" : "parts"),
                  "a compound takes meshes with \"collision\": \"hull\"");
   }
   ConvexHull hull;  // its geometry comes from the mesh

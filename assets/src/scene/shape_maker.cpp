@@ -26,6 +26,7 @@ Result<Shape> ShapeMaker::make_mesh(const std::string& name, const Shape& asked)
     const auto* surface = std::get_if<SurfaceMesh>(&asked);
     return Shape{SurfaceMesh{mesh.surface, surface ? surface->scale : Vec3(Vec3::Ones())}};
   }
+  if (mesh.parts) return Shape{Compound{mesh.parts}};
   const auto* hull = std::get_if<ConvexHull>(&asked);
   return Shape{ConvexHull{mesh.hull, hull ? hull->rounding : Real(0)}};
 }

@@ -75,7 +75,14 @@ Json json_of(const SceneMesh& mesh) {
   if (mesh.up) out["up"] = word(scene::kAxes, *mesh.up);
   out["collision"] = word(scene::kCollisions, mesh.collision);
   if (mesh.collision == SceneMesh::Collision::Surface) return out;
-  out["max_hull_vertices"] = mesh.max_hull_vertices;
+  if (mesh.collision == SceneMesh::Collision::Hull) {
+    out["max_hull_vertices"] = mesh.max_hull_vertices;
+  } else {
+    Json parts = {{"max_parts", mesh.parts.max_parts},
+                  {"max_vertices", mesh.parts.max_part_vertices}};
+    if (mesh.parts.max_distance > 0) parts["max_distance"] = mesh.parts.max_distance;
+    out["parts"] = std::move(parts);
+  }
   out["density"] = mesh.mass.density;
   Json mass = {{"method", word(scene::kMassMethods, mesh.mass.method)}};
   if (mesh.mass.method == MassMethod::Shell) mass["thickness"] = mesh.mass.shell_thickness;

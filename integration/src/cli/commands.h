@@ -32,6 +32,9 @@ struct MeshOptions {
   double density = 1000;  // [kg/m^3]
   double thickness = 0;   // [m] of a shell
   std::optional<double> metres_per_unit;
+  bool parts = false;                    // cut it into convex parts
+  std::optional<double> parts_distance;  // [m] the same, with this distance
+  std::size_t max_parts = 32;
   bool json = false;
 };
 int inspect_mesh(const MeshOptions& options);

@@ -54,6 +54,10 @@ void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
   mesh->add_option("--up", options.up,
                    "Axis of the file that points up; default: what the file says")
       ->check(CLI::IsMember({"x", "y", "z"}));
+  mesh->add_flag("--parts", options.parts, "Also cut it into convex parts, and report on them");
+  mesh->add_option("--parts-distance", options.parts_distance,
+                   "How far parts may reach out of the mesh, in metres (0.02 of its size)");
+  mesh->add_option("--max-parts", options.max_parts, "The most parts")->capture_default_str();
   mesh->add_flag("--json", options.json, "For programs: one JSON object");
   mesh->callback([&] { exit_code = inspect_mesh(options); });
 }

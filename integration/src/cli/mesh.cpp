@@ -20,6 +20,11 @@ int inspect_mesh(const MeshOptions& options) {
   inspect.mass.density = options.density;
   inspect.mass.shell_thickness = options.thickness;
 
+  if (options.parts || options.parts_distance) {
+    inspect.parts = assets::DecomposeOptions{.max_distance = options.parts_distance.value_or(0),
+                                             .max_parts = options.max_parts};
+  }
+
   const auto inspection = assets::inspect_mesh_file(options.file, inspect);
   if (!inspection.ok()) {
     complain(inspection.error());
@@ -29,7 +34,7 @@ int inspect_mesh(const MeshOptions& options) {
       options.json ? assets::to_json(*inspection) : assets::to_text(*inspection);
   std::fputs(page.c_str(), stdout);
   if (!page.empty() && page.back() != '\n') std::fputc('\n', stdout);
-  return inspection->mass ? kOk : kFailed;
+  return inspection->mass && inspection->parts_error.empty() ? kOk : kFailed;
 }
 
 }  // namespace plumb::cli

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "plumb/assets/certificate.h"
+#include "plumb/assets/decompose.h"
 #include "plumb/assets/hull.h"
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
@@ -20,14 +21,17 @@ struct MeshInspection {
   std::string mass_error;  // why there is no mass
   std::optional<HullMesh> hull;
   std::string hull_error;
+  std::optional<DecompositionReport> parts;  // only if asked for
+  std::string parts_error;
 };
 
 struct InspectOptions {
   ImportOptions import = {};
   MassOptions mass = {};
   HullOptions hull = {};
-  bool guarded = true;     // read in a child process (import_mesh_guarded)
-  double time_limit = 60;  // [s] of the guarded reading
+  std::optional<DecomposeOptions> parts = {};  // unset: the mesh is not decomposed
+  bool guarded = true;                         // read in a child process (import_mesh_guarded)
+  double time_limit = 60;                      // [s] of the guarded reading
 };
 
 // Fails only if the file cannot be read; what is wrong with the mesh is in the inspection.

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "plumb/assets/decompose.h"
 #include "plumb/assets/hull.h"
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
@@ -51,10 +52,12 @@ struct SceneMesh {
   std::optional<double> metres_per_unit;  // [m] > 0; unset: what the file says
   std::optional<Axis> up;                 // unset: what the file says
   // What the mesh collides as. Concave meshes may collide as their hull too, therefore the file has
-  // to ask for it by name. A surface is for static and kinematic bodies and has no mass.
-  enum class Collision { Hull, Surface } collision = Collision::Hull;
+  // to ask for it by name. A surface is for static and kinematic bodies and has no mass. Parts are
+  // convex ones that keep the hollows of a concave solid.
+  enum class Collision { Hull, Surface, Parts } collision = Collision::Hull;
   std::size_t max_hull_vertices = kColliderHullVertices;  // 4..1024, of a hull
-  MassOptions mass;                                       // of a hull
+  DecomposeOptions parts;                                 // of parts
+  MassOptions mass;                                       // of a hull or parts: of the mesh itself
   int line = 0;  // where it stands in the file; 0: it was made by code
 };
 
@@ -194,8 +197,10 @@ struct SceneInstanceBody {
 
 struct SceneInstanceMesh {
   std::string name;
-  TriangleMesh mesh;                         // [m] mesh frame
-  std::shared_ptr<const HullGeometry> hull;  // what it collides as; null: the surface itself
+  TriangleMesh mesh;                              // [m] mesh frame
+  std::shared_ptr<const HullGeometry> hull;       // what it collides as; null: its parts or itself
+  std::shared_ptr<const CompoundGeometry> parts;  // null: it collides as something else
+  std::optional<DecompositionReport> parts_report;
   double hull_excess =
       0;  // volume of the hull over that of the mesh, minus 1; 0 if the mesh has none
 };
@@ -210,7 +215,8 @@ struct SceneInstance {
       bodies;  // in the order of the file; user_data of a body is its index
   std::vector<SceneInstanceJoint> joints;  // the same for joints
   std::vector<SceneInstanceMesh> meshes;   // those that bodies use
-  // Worth knowing: concave meshes that collide as their hull, surfaces with open seams.
+  // Worth knowing: concave meshes that collide as their hull, surfaces with open seams, parts that
+  // miss the distance asked for.
   std::vector<std::string> notes;
   std::map<std::string, std::size_t, std::less<>> index_of;  // name to index in `bodies`
 
