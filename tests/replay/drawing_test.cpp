@@ -75,6 +75,36 @@ TEST(DrawnJoints, ReachFromPlaceToPlaceWhileTheyLast) {
   }
 }
 
+// A ball of 0.25 m becomes one of 0.5 m before step 3, and moves aside on its body before step 5.
+TEST(DrawnShapes, FollowChangesOfTheirColliders) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("changes.rrd");
+  {
+    PhysicsWorld world(no_gravity());
+    const BodyId ball = add(world, body_at(at(1, 3, 2)), with(sphere(0.25)));
+    const ColliderId collider = world.colliders_of(ball)[0];
+    replay::Recorder recorder;
+    ASSERT_TRUE(recorder.open({.path = path}).ok());
+    world.attach(&recorder);
+    for (int step = 1; step <= 6; ++step) {
+      if (step == 3) must(world.set_shape(collider, sphere(0.5)));
+      if (step == 5) must(world.set_local_pose(collider, {vec(0, 1, 0), Quat::Identity()}));
+      ASSERT_TRUE(world.step(kDt).status.ok());
+    }
+    world.detach(&recorder);
+    const auto closed = recorder.close();
+    ASSERT_TRUE(closed.ok()) << closed.error;
+  }
+  const auto sizes = rows_of<float>(path, "world/moving/spheres", "Ellipsoids3D:half_sizes");
+  const auto centers = rows_of<float>(path, "world/moving/spheres", "Ellipsoids3D:centers");
+  ASSERT_TRUE(sizes.contains(0) && sizes.contains(3));
+  EXPECT_EQ(sizes.at(0)[0], 0.25f);
+  EXPECT_EQ(sizes.at(3)[0], 0.5f);
+  ASSERT_TRUE(centers.contains(4) && centers.contains(6));
+  EXPECT_EQ(centers.at(4)[1], 3.0f);
+  EXPECT_EQ(centers.at(6)[1], 4.0f);
+}
+
 TEST(DrawnLabels, StandBesideTheirBodies) {
   const TemporaryFolder folder;
   const std::string path = folder.file("labels.rrd");

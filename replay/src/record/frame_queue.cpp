@@ -1,6 +1,7 @@
 #include "record/frame_queue.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace plumb::inline PLUMB_ABI {
@@ -9,6 +10,9 @@ namespace {
 
 // Frames that wait before the encoder is woken, and those at which the stepping thread waits [-].
 constexpr std::size_t kWakeAt = 8, kFullAt = 64;
+// The encoder looks by itself so often: longer than a frame of a game, so that it need not be woken
+// then, and few frames are in turn, which stay in the cache.
+constexpr std::chrono::milliseconds kLookEvery{20};
 
 }  // namespace
 
@@ -42,7 +46,8 @@ void FrameQueue::push(std::unique_ptr<Frame> frame) {
   std::unique_lock lock(mutex_);
   room_.wait(lock, [this] { return waiting_.size() < kFullAt; });
   waiting_.push_back(std::move(frame));
-  const bool wake = waiting_.size() == kWakeAt;
+  const bool wake = asleep_ || waiting_.size() == kWakeAt;
+  asleep_ = false;
   lock.unlock();
   if (wake) work_.notify_one();
 }
@@ -58,9 +63,12 @@ void FrameQueue::drain() {
 void FrameQueue::run() {
   std::unique_lock lock(mutex_);
   while (true) {
-    work_.wait(lock, [this] {
+    work_.wait_for(lock, kLookEvery, [this] {
       return ends_ || waiting_.size() >= kWakeAt || (hurry_ && !waiting_.empty());
     });
+    asleep_ = waiting_.empty() && !ends_;  // nothing came: until something does
+    work_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
+    asleep_ = false;
     if (ends_ && waiting_.empty()) return;
     while (!waiting_.empty()) {
       std::unique_ptr<Frame> frame = std::move(waiting_.front());

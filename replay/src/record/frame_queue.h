@@ -1,8 +1,9 @@
 // Frames on their way from the thread that steps the world to the one that encodes them.
 //
-// Frames are reused, so that copying into one allocates nothing after a while. The encoder is woken
-// for several frames at once: waking it costs more than a frame. When it falls behind by too many,
-// the stepping thread waits for it: memory stays bounded and nothing is lost.
+// Frames are reused, so that copying into one allocates nothing after a while. The encoder looks
+// for work by itself, or is woken for several frames at once: waking it costs more than a frame.
+// When it falls behind by too many, the stepping thread waits for it: memory stays bounded and
+// nothing is lost.
 #pragma once
 
 #include <condition_variable>
@@ -41,7 +42,7 @@ class FrameQueue {
   std::condition_variable work_, room_;
   std::deque<std::unique_ptr<Frame>> waiting_;
   std::vector<std::unique_ptr<Frame>> empty_;
-  bool hurry_ = false, encoding_ = false, ends_ = false;
+  bool hurry_ = false, encoding_ = false, asleep_ = false, ends_ = false;
   std::thread thread_;  // last: it uses all the others
 };
 

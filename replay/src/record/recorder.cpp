@@ -159,6 +159,10 @@ bool Recorder::Run::scene_changed(const detail::Frame& frame, const PhysicsWorld
       case InputKind::DestroyBody:
       case InputKind::CreateCollider:
       case InputKind::DestroyCollider:
+      case InputKind::SetMotionType:
+      case InputKind::SetShape:
+      case InputKind::SetLocalPose:
+      case InputKind::SetSensor:
       case InputKind::CreateJoint:
       case InputKind::DestroyJoint:
       case InputKind::SetSettings:

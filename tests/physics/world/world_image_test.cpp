@@ -70,6 +70,8 @@ void expect_faithful(const PhysicsWorld& world) {
 TEST(WorldImage, TellsWhatTheWorldTellsInEveryStep) {
   PhysicsWorld world;
   const Built built = build_pile(world, {.side = 4});
+  for (int i = 0; i < 3; ++i)  // apart from the pile, and soon asleep
+    add(world, body_at(at(40, 0.5 + i, 0)), with(cube(0.5)));
   WorldImage image;  // used again and again, as a recorder does
   bool touched = false, slept = false;
   for (int step = 0; step < 400; ++step) {
@@ -79,7 +81,7 @@ TEST(WorldImage, TellsWhatTheWorldTellsInEveryStep) {
     expect_same(told, told_by(world));
     if (HasFatalFailure()) return;
     touched = touched || !told.points.empty();
-    slept = slept || world.last_report().awake_bodies < built.bodies.size();
+    slept = slept || world.last_report().awake_bodies < built.bodies.size() + 3;
   }
   EXPECT_TRUE(touched);
   EXPECT_TRUE(slept);  // else the contacts of sleeping islands were not seen
@@ -106,6 +108,12 @@ TEST(WorldImage, FollowsWhatIsDoneBetweenSteps) {
   must(world.set_angular_velocity(built.bodies[8], vec(3, 2, 1)));
   expect_faithful(world);
   must(world.set_awake(built.bodies[20], false));
+  expect_faithful(world);
+  must(world.set_motion_type(built.bodies[9], MotionType::Static));
+  expect_faithful(world);
+  must(world.set_gravity_scale(built.bodies[10], real(-0.25)));
+  expect_faithful(world);
+  must(world.set_user_data(built.bodies[11], 4711));
   expect_faithful(world);
   WorldSettings settings = world.settings();
   settings.gravity = vec(0, -1.6, 0);
