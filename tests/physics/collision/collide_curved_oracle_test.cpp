@@ -45,7 +45,7 @@ CollisionShape random_shape(Random& random, ShapeType type, double size, bool ro
     case ShapeType::HalfSpace:
       return make_collision_shape(
           HalfSpace{random.direction().cast<Real>(), static_cast<Real>(random.uniform(-1, 1))});
-    case ShapeType::Hull:
+    default:  // hulls; shapes with parts are not asked for
       break;
   }
   const auto geometry =

@@ -295,9 +295,10 @@ TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
     const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
     PartManifolds all;
     const bool hit = collide_parts(mesh, fixed, shape, placed, Real(0), all);
-    if (truth > 1e-4)
+    if (truth > 1e-4) {
       EXPECT_FALSE(hit) << "trial " << trial << " kind " << trial % 4 << " truth " << truth
                         << " deep " << deepest_of(all) << " " << all.parts.size();
+    }
     // Deep capsules and edges among themselves have other ways out: a fifth of the half thickness.
     if (truth > -2e-3 * half || truth < -0.2 * half) continue;
     ++touched;

@@ -105,8 +105,8 @@ TEST_P(SurfaceQueries, DistancesAndOverlapsAreThoseOfAPlane) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, SurfaceQueries, ::testing::Bool(), [](const auto& info) {
-  return std::string(info.param ? "Heightfield" : "Mesh");
+INSTANTIATE_TEST_SUITE_P(Both, SurfaceQueries, ::testing::Bool(), [](const auto& which) {
+  return std::string(which.param ? "Heightfield" : "Mesh");
 });
 
 TEST(CompoundQueries, AnswerLikeTheirChildren) {
