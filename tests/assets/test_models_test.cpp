@@ -19,7 +19,7 @@ using namespace assets;
 
 const std::filesystem::path kModels = "/usr/share/assimp/models";
 constexpr std::size_t kMostPartsOfAFile = 6;  // few, so that large models do not take minutes
-constexpr double kTimeLimit = 120;     // [s] of one file; a guard against hanging, not a speed test
+constexpr double kTimeLimit = 120;  // [s] of one file; a guard against hanging, not a speed test
 
 struct Walk {
   std::size_t files = 0, read = 0, solid = 0, refused = 0;
