@@ -74,6 +74,7 @@ struct PairFindings {
   bool gone = false;                   // the bounds are apart, or all sleeps
   bool overlaps = false;               // sensors: whether they see the other
   Passage passage = Passage::Apart;
+  SeparatingFace apart;
 };
 
 // One colour: rows among which no two share a dynamic body.
