@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "collision/manifold.h"
+#include "world/body_store.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -49,7 +50,10 @@ struct Pair {                            // 64 bytes in f32
 struct Contact {
   std::uint32_t pair = 0;  // index into the awake pairs, valid within the step
   std::uint32_t part = 0;  // of a shape made of parts: which one; else 0
-  Manifold manifold;       // positions from that body's centre of mass, world axes
+  // Slot of the body from whose centre of mass positions are seen; kNone: the pair does not touch.
+  // Valid after the step until a pair is changed (WorldState::contacts_fit).
+  std::uint32_t seen_from = kNone;
+  Manifold manifold;  // positions from that body's centre of mass, world axes
   Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step
   bool at_rest = false;  // the contact solver, not a bounce, carried it in the last substep
   Real radius_a = 0, radius_b = 0;  // [m] of the rounded shapes that touch; 0 for the others

@@ -90,7 +90,7 @@ struct WorldState {
   std::vector<WorldAabb> reach;  // per collider slot: all its places in the next step
   PairStore pairs;
   std::vector<Contact> contacts;   // of the awake pairs, in their order
-  std::uint64_t contacts_fit = 0;  // pairs.changes() for which Contact::pair holds
+  std::uint64_t contacts_fit = 0;  // pairs.changes() for which Contact::seen_from holds
   JointStore joints;
   ContactData contact_data;
   std::vector<SensorOverlap> overlaps;  // after the last step, ascending
