@@ -94,6 +94,42 @@ TEST(NewtonWorld, WhatRestsFallsAsleepAndWakes) {
   EXPECT_GT(world.last_report().awake_bodies, 0u);
 }
 
+// The plan chooses per island: nothing changes, bit for bit, where nobody calls, and what falls
+// with soft steps stands, whichever of the calls it is.
+TEST(NewtonWorld, AutoLeavesAloneWhatDoesNotCallForIt) {
+  std::vector<std::uint64_t> hashes;
+  for (const ContactSolver solver : {ContactSolver::SoftStep, ContactSolver::Auto}) {
+    WorldSettings settings = no_sleep();
+    settings.contact_solver = solver;
+    PhysicsWorld world(settings);
+    build_column(world, {5});
+    for (int k = 0; k < 8; ++k)  // they fall and strike at 4 m/s, which is no load
+      add(world, body_at(at(5 + 1.5 * k, 1.4, 0)),
+          with(k % 2 == 0 ? Shape(cube(0.4)) : Shape(sphere(0.4))));
+    run(world, 1, kDt, [&] { EXPECT_EQ(world.last_report().newton_islands, 0u); });
+    EXPECT_FALSE(world.plan().active(PlanItem::AccurateContacts));
+    hashes.push_back(world.state_hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(NewtonWorld, AutoTakesTheIslandsThatCallForIt) {
+  for (const Column& column : {Column{2, 100}, Column{30}, Column{10, 2}}) {
+    WorldSettings settings = no_sleep();
+    settings.contact_solver = ContactSolver::Auto;
+    PhysicsWorld world(settings);
+    const Built built = build_column(world, column);
+    // An island of its own that does not.
+    add(world, body_at(at(20, 0.5, 0)), with(cube(0.5)));
+    const BodyId top = built.bodies.back();
+    const Vector3d start = position(world, top);
+    run(world, 5);
+    EXPECT_EQ(world.last_report().newton_islands, 1u) << column.count;
+    EXPECT_TRUE(world.plan().active(PlanItem::AccurateContacts));
+    EXPECT_LE((position(world, top) - start).norm(), 0.05) << column.count;
+  }
+}
+
 // A box on a table that a hinge and its motor turn, against a limit: the load is carried, the limit
 // holds, and the motor gives no more than it has.
 TEST(NewtonJoints, HingesWithMotorsAndLimitsCarryWhatTouchesThem) {
@@ -112,8 +148,9 @@ TEST(NewtonJoints, HingesWithMotorsAndLimitsCarryWhatTouchesThem) {
   EXPECT_NE(find_contact(contacts(world), table, load), nullptr);
 }
 
-// A chain over a pole with a ton at either end. Measured in double: it opens by 16 mm, 5 % of a link,
-// and gains 2.8 % of what its weights could fall by (wanted, and held by the fast solver: 1 % both).
+// A chain over a pole with a ton at either end. Measured in double: it opens by 16 mm, 5 % of a
+// link, and gains 2.8 % of what its weights could fall by (wanted, and held by the fast solver: 1 %
+// both).
 TEST(NewtonJoints, ALoadedChainOverAPoleStaysTogether) {
   PhysicsWorld world(newton());
   add(world, body_at(at(0, 0, 0), MotionType::Static), with(sphere(0.4), material(0.3)));

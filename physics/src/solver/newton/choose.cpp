@@ -27,6 +27,9 @@ Call call_of(const WorldState& world, const Contact& contact, Vec down, Real g) 
     if (above > tolerance::kLightest * below && (loaded || world.last_h == Real(0)))
       return Call::Mass;
   }
+  // What has only just met strikes; whether it carries will be seen.
+  const auto touching = static_cast<std::uint32_t>(world.step_count) - pair.began;
+  if (touching < tolerance::kStepsToBeLoad) return Call::None;
   const Real lightest = m_a > Real(0) && m_b > Real(0) ? std::min(m_a, m_b) : std::max(m_a, m_b);
   if (pressed > tolerance::kMostLoad * lightest * g * world.last_h) return Call::Load;
   if (loaded && gap < -tolerance::kMostOverlap * pair.slop) return Call::Overlap;

@@ -45,11 +45,13 @@ inline constexpr double kPush = 0.2;
 
 // When an island calls for this solver by itself (choose.h; physics/README.md has the map that was
 // measured). A body on one that is so many times lighter [-]; a contact that presses with so many
-// weights of the lighter body [-]; loaded overlap of so many slops [-]; steps for which a body that
-// has called stays [-]; islands with more bodies stay with the fast solver [-].
+// weights of the lighter body [-]; loaded overlap of so many slops [-]; steps for which the two
+// must have touched for that [-]; steps for which a body that has called stays [-]; islands with
+// more bodies stay with the fast solver [-].
 inline constexpr Real kLightest = Real(4);
 inline constexpr Real kMostLoad = Real(12.5);
 inline constexpr Real kMostOverlap = Real(10);
+inline constexpr unsigned kStepsToBeLoad = 8;
 inline constexpr unsigned char kStepsToStay = 60;
 inline constexpr std::size_t kMostBodies = 300;
 
