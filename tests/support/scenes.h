@@ -54,6 +54,31 @@ inline Built build_stack(PhysicsWorld& world, const Stack& stack = {}) {
   return built;
 }
 
+// Boxes of one metre on a slab, with more ways to make it hard.
+struct Column {
+  int count = 10;
+  double growth = 1;  // density of each box over that of the one below
+  double shift = 0;   // [m] sideways, alternating +-
+  double tilt = 0;    // [rad] each box turned by up to so much about a direction of its own
+  double gap = 0;     // [m] between neighbours
+  double density = 1000;
+  Material surface = {};
+};
+inline Built build_column(PhysicsWorld& world, const Column& column = {}) {
+  Built built;
+  built.ground = add_slab(world, 100, 100, column.surface);
+  Random random(7);
+  double density = column.density;
+  for (int i = 0; i < column.count; ++i, density *= column.growth) {
+    const Eigen::Vector3d p((i % 2 == 0 ? 1 : -1) * column.shift, 0.5 + i + column.gap * (i + 1),
+                            0);
+    Quat q = Quat::Identity();
+    if (column.tilt > 0) q = random.rotation(column.tilt);
+    built.bodies.push_back(add(world, body_at(at(p, q)), with(cube(0.5), column.surface, density)));
+  }
+  return built;
+}
+
 // --- pyramid
 // ---------------------------------------------------------------------------------------
 struct Pyramid {

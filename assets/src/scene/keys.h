@@ -20,8 +20,8 @@ inline constexpr std::string_view kScene[] = {
     "bodies",   "joints",      "excluded_pairs"};
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
 inline constexpr std::string_view kSettings[] = {
-    "gravity",  "substeps",      "contact_frequency", "contact_damping_ratio",
-    "rotation", "warm_starting", "sleeping",          "time_to_sleep"};
+    "gravity",        "substeps",      "contact_frequency", "contact_damping_ratio", "rotation",
+    "contact_solver", "warm_starting", "sleeping",          "time_to_sleep"};
 inline constexpr std::string_view kMaterial[] = {
     "friction",         "restitution",        "friction_rule", "restitution_rule",
     "rolling_friction", "torsional_friction", "kind"};
@@ -201,6 +201,7 @@ inline constexpr std::string_view kMotorModes[] = {"velocity", "position"};
 // Words with a fixed meaning, in the order of the enum they stand for.
 inline constexpr std::string_view kMotionTypes[] = {"static", "kinematic", "dynamic"};
 inline constexpr std::string_view kRotationMethods[] = {"exact", "implicit_gyro", "book"};
+inline constexpr std::string_view kContactSolvers[] = {"soft_step", "newton", "auto"};
 inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum",
                                                      "maximum", "multiply"};
 inline constexpr std::string_view kAxes[] = {"x", "y", "z"};

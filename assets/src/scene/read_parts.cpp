@@ -42,6 +42,7 @@ void read_settings(const JsonNode& node, WorldSettings& settings, Problems& prob
   in.number("contact_frequency", settings.contact_frequency, kPositive);
   in.number("contact_damping_ratio", settings.contact_damping_ratio, kNotNegative);
   in.choice("rotation", kRotationMethods, settings.rotation);
+  in.choice("contact_solver", kContactSolvers, settings.contact_solver);
   in.flag("warm_starting", settings.warm_starting);
   in.flag("sleeping", settings.sleeping);
   in.number("time_to_sleep", settings.time_to_sleep, kNotNegative);

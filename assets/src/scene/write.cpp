@@ -63,6 +63,7 @@ Json json_of(const WorldSettings& settings) {
           {"contact_frequency", tidy(settings.contact_frequency)},
           {"contact_damping_ratio", tidy(settings.contact_damping_ratio)},
           {"rotation", word(scene::kRotationMethods, settings.rotation)},
+          {"contact_solver", word(scene::kContactSolvers, settings.contact_solver)},
           {"warm_starting", settings.warm_starting},
           {"sleeping", settings.sleeping},
           {"time_to_sleep", tidy(settings.time_to_sleep)}};

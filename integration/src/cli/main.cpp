@@ -32,6 +32,8 @@ void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
       ->check(CLI::Range(std::int64_t{0}, kMostSteps));
   run->add_option("--dt", options.dt, "Length of a step in seconds instead of the scene's");
   run->add_option("--substeps", options.substeps, "Solver steps within one step (1 to 64)");
+  run->add_option("--solver", options.solver, "Contact solver instead of the scene's")
+      ->check(CLI::IsMember({"soft_step", "newton", "auto"}));
   run->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();

@@ -33,6 +33,11 @@ std::string apply(const RunOptions& options, assets::Scene& scene) {
       return std::string("--substeps: ") + status.message;
     }
   }
+  if (options.solver) {
+    scene.settings.contact_solver = *options.solver == "newton" ? ContactSolver::Newton
+                                    : *options.solver == "auto" ? ContactSolver::Auto
+                                                                : ContactSolver::SoftStep;
+  }
   return {};
 }
 

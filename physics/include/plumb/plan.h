@@ -25,6 +25,7 @@ enum class PlanItem : unsigned char {
   RollingFriction,
   SurfaceVelocity,
   OneWay,
+  AccurateContacts,  // ContactSolver::Newton for some islands
   Count,
 };
 const char* name_of(PlanItem item);

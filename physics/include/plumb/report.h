@@ -42,6 +42,14 @@ struct StepReport {
   std::uint32_t impacts = 0;       // bounces handled at their own time within the step
   std::uint32_t looked_ahead = 0;  // contacts of fast pairs, made where they will first touch
   std::uint32_t continuous = 0;    // bodies that would have passed something and were stopped at it
+
+  // Of the accurate solver (ContactSolver::Newton), over all substeps; zero where it is not used.
+  std::uint32_t newton_islands = 0;         // solved by it
+  std::uint32_t newton_factorizations = 0;  // of their matrices: what the step cost
+  std::uint32_t newton_fallbacks = 0;       // solves cut off at their budget and ended by ADMM
+  std::uint32_t newton_too_large = 0;       // islands left to the fast solver: too much to factor
+  double newton_residual = 0;  // [m/s] >= 0 by which the contact laws are missed, worst
+
   double largest_penetration = 0;  // [m] >= 0, at the start of the step
 
   // Bodies whose state became non-finite: put back to their last valid pose, disabled, reported.

@@ -15,6 +15,17 @@ enum class RotationMethod : std::uint8_t {
   Book,          // first-order quaternion update, no gyroscopic term [Millington 2010]
 };
 
+// How contacts and joints that touch something are solved.
+enum class ContactSolver : std::uint8_t {
+  SoftStep,  // fast: one soft pass and one relaxing pass a substep (src/solver); the default
+  // Accurate: each island to the exact laws in every substep, whatever its masses and its height,
+  // in double (src/solver/newton). Costs more where many contacts open and close.
+  Newton,
+  // Newton for the islands that call for it, soft steps for the others: where heavy bodies lie on
+  // light ones or many on one another (world.plan() tells; physics/README.md has the map).
+  Auto,
+};
+
 struct WorldSettings {
   Vec3 gravity = Vec3(0, Real(-9.81), 0);  // [m/s^2] finite
 
@@ -27,6 +38,7 @@ struct WorldSettings {
   Real contact_damping_ratio = Real(10);
 
   RotationMethod rotation = RotationMethod::Exact;
+  ContactSolver contact_solver = ContactSolver::SoftStep;
 
   bool warm_starting = true;  // begin from the last step's impulses; off only to show what it buys
   bool sleeping = true;       // islands at rest stop costing anything

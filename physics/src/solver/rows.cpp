@@ -5,6 +5,7 @@
 #include "math/symmetric_inverse.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
+#include "solver/newton/newton_solver.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "world/tolerances.h"
@@ -311,6 +312,7 @@ void build_rows(WorldState& world) {
   world.bouncing_rows.clear();
   for (std::uint32_t i = 0; i < count; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);
+  if (world.newton != nullptr && world.newton->count > 0) gather_newton_islands(world);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

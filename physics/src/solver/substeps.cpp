@@ -16,6 +16,8 @@
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
 #include "solver/joints/joint_stages.h"
+#include "solver/newton/newton_solver.h"
+#include "solver/row_end.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "world/tolerances.h"
@@ -104,16 +106,6 @@ void finish_substep(WorldState& world, std::uint32_t i) {
   }
 }
 
-// A change in which points carry load marks both bodies, whose velocities then jump rather than
-// ramp.
-void note_loaded_points(WorldState& world, ContactRow<Real>& row) {
-  const unsigned loaded = loaded_points(world, row);
-  if (loaded == row.loaded) return;
-  row.loaded = loaded;
-  if (world.substep[row.body_a].constrained) world.substep[row.body_a].contacts_changed = true;
-  if (world.substep[row.body_b].constrained) world.substep[row.body_b].contacts_changed = true;
-}
-
 // Rolling and torsional friction of a row that has it. Returns whether it turns nevertheless.
 bool resist_turning(WorldState& world, const ContactRow<Real>& row, bool first_pass,
                     RowVelocities<Real>& u) {
@@ -132,31 +124,7 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
     const bool turns = resist_turning(world, row, false, u);
     solve_friction(row, u, load, sliding);
     if (turns) sliding = load;  // its speeds ramp as those of what slides
-    // What a turntable carries has the velocity of the middle of the substep: nothing to correct.
-    if (row.drive.z != Real(0) && sliding < load) sliding = Real(0);
-    write_velocities(world, row, u);
-    for (const std::uint32_t body : {row.body_a, row.body_b}) {
-      SubstepBody& s = world.substep[body];
-      if (!s.constrained) continue;
-      s.load += load;
-      s.sliding_load += sliding;
-    }
-    row.at_rest = load > Real(0);
-    // Between two dynamic bodies the shift of the trapezoid would not keep their angular momentum.
-    if (row.both_dynamic && load > Real(0)) {
-      world.substep[row.body_a].contacts_changed = true;
-      world.substep[row.body_b].contacts_changed = true;
-    }
   }
-}
-
-void close_substep(WorldState& world, ContactRow<Real>& row) {
-  for (int i = 0; i < row.count; ++i) {
-    row.points[i].impulse_sum += row.points[i].impulse;
-    row.points[i].friction1_sum += row.points[i].friction1;
-    row.points[i].friction2_sum += row.points[i].friction2;
-  }
-  note_loaded_points(world, row);
 }
 
 void store_impulses(WorldState& world) {
@@ -222,6 +190,7 @@ void run_substeps(WorldState& world) {
   const Real inverse_h = Real(1) / world.h;
   const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
   const bool joints = !world.joints.empty();
+  const bool newton = world.newton != nullptr && world.newton->count > 0;
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (!world.spinning_rows.empty()) carry_drives(world);
@@ -248,15 +217,18 @@ void run_substeps(WorldState& world) {
       solve_friction(row, u, load, sliding);
       write_velocities(world, row, u);
     });
+    if (newton) solve_newton_islands(world);
     for_awake_bodies(world, [&](std::uint32_t i) { drift(world, i); });
+    if (newton) settle_newton_islands(world);
     if (joints) relax_joints(world);
     for (int pass = 0; pass < relax_passes; ++pass)
       for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
-    for_rows_by_color(world, [&](ContactRow<Real>& row) { close_substep(world, row); });
+    for_rows_by_color(world, [&](ContactRow<Real>& row) { close_row(world, row); });
     for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
   }
   store_impulses(world);
   if (joints) store_joints(world);
+  if (newton) report_newton_islands(world);
   world.last_h = world.h;
 }
 

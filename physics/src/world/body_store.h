@@ -63,14 +63,15 @@ struct BodyInfo {  // what states are read by comes first
   bool can_sleep = true;
   bool continuous = false;  // stopped by dynamic bodies too
   std::uint32_t dense = 0;
-  Vec center_B{0, 0, 0};         // centre of mass in B
-  Rotation R_BP{0, 0, 0, 1};     // principal axes in B
-  std::uint32_t island = kNone;  // sleeping island, or kNone
-  Real rest_time = 0;            // [s] at rest without a break
-  Real size = 0;                 // [m] smallest thickness over its colliders
-  Real radius = 0;               // [m] farthest point of its colliders from the centre of mass
-  Vec acceleration{0, 0, 0};     // [m/s^2] from forces and gravity in the last step
-  MassProperties properties;     // in B
+  Vec center_B{0, 0, 0};          // centre of mass in B
+  Rotation R_BP{0, 0, 0, 1};      // principal axes in B
+  std::uint32_t island = kNone;   // sleeping island, or kNone
+  Real rest_time = 0;             // [s] at rest without a break
+  std::uint8_t newton_steps = 0;  // for which it stays with the accurate solver (newton/choose.h)
+  Real size = 0;                  // [m] smallest thickness over its colliders
+  Real radius = 0;                // [m] farthest point of its colliders from the centre of mass
+  Vec acceleration{0, 0, 0};      // [m/s^2] from forces and gravity in the last step
+  MassProperties properties;      // in B
   std::vector<std::uint32_t> colliders;  // slots
   std::vector<ColliderId> collider_ids;
 };

@@ -6,6 +6,7 @@
 // free colour of one body only.
 #include <bit>
 
+#include "solver/newton/newton_solver.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int kColors = 64;  // bits of a body's mask; the last one is the overflow
 constexpr int kOverflow = kColors - 1;
+constexpr int kUncolored = kColors;  // rows that Newton's method solves: behind all others
 
 }  // namespace
 
@@ -24,12 +26,18 @@ void color_contacts(WorldState& world) {
     return bodies.mass[dense].mass > Real(0) && dense < bodies.awake_end ? &world.color_mask[dense]
                                                                          : nullptr;
   };
+  const bool newton = world.newton != nullptr && world.newton->count > 0;
   std::vector<std::uint32_t> counts(kColors + 1, 0);
   std::vector<std::uint8_t> color_of(world.contacts.size());
   for (std::size_t i = 0; i < world.contacts.size(); ++i) {
     const Pair& pair = world.pairs[world.contacts[i].pair];
     std::uint64_t* a = mask_of(pair.body_a);
     std::uint64_t* b = mask_of(pair.body_b);
+    if (newton && (in_newton_island(world, bodies.info[pair.body_a].dense) ||
+                   in_newton_island(world, bodies.info[pair.body_b].dense))) {
+      color_of[i] = kUncolored;
+      continue;
+    }
     const std::uint64_t used = (a != nullptr ? *a : 0) | (b != nullptr ? *b : 0);
     const int color = std::min(std::countr_one(used), kOverflow);
     if (color < kOverflow) {
@@ -51,6 +59,7 @@ void color_contacts(WorldState& world) {
       for (std::uint32_t i = 0; i < size; ++i) world.colors.push_back({begin + i, begin + i + 1});
     }
   }
+  // counts[kColors]: where the rows without a colour begin.
   world.row_order.resize(world.contacts.size());
   for (std::uint32_t i = 0; i < world.contacts.size(); ++i)
     world.row_order[counts[color_of[i]]++] = i;

@@ -22,7 +22,7 @@
 //              8 cylinder, 9 cone: half length, radius, rounding
 //              box and hull: rounding after the half extents, before the vertices
 //   settings   gravity x3, substeps, contact frequency, damping ratio, rotation, warm starting,
-//              sleeping, time to sleep, profiling
+//              sleeping, time to sleep, profiling, contact solver
 #include "world/inputs.h"
 
 #include <array>
@@ -124,7 +124,7 @@ void append(std::vector<double>& out, const WorldSettings& s) {
   append_all(out, {static_cast<double>(s.substeps), as_number(s.contact_frequency),
                    as_number(s.contact_damping_ratio), static_cast<double>(s.rotation),
                    s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0, as_number(s.time_to_sleep),
-                   s.profiling ? 1.0 : 0.0});
+                   s.profiling ? 1.0 : 0.0, static_cast<double>(s.contact_solver)});
 }
 
 double NumberReader::number() {
@@ -264,6 +264,7 @@ WorldSettings NumberReader::settings() {
   s.sleeping = flag();
   s.time_to_sleep = real();
   s.profiling = flag();
+  s.contact_solver = choice<ContactSolver>(*this, 3, ok_);
   return s;
 }
 

@@ -7,6 +7,7 @@
 
 #include "math/eigen_bridge.h"
 #include "motion/rotation_flow.h"
+#include "solver/newton/choose.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -45,6 +46,8 @@ const char* name_of(PlanItem item) {
       return "surface velocity";
     case PlanItem::OneWay:
       return "one-way colliders";
+    case PlanItem::AccurateContacts:
+      return "accurate contacts";
     case PlanItem::Count:
       break;
   }
@@ -153,6 +156,27 @@ Tally tally(const WorldState& world) {
   return t;
 }
 
+struct AccurateChoice {
+  bool active = false;
+  std::string reason;
+};
+AccurateChoice accurate_choice(const WorldState& world) {
+  if (world.settings.contact_solver == ContactSolver::SoftStep)
+    return {false, "the settings ask for soft steps"};
+  if (world.settings.contact_solver == ContactSolver::Newton)
+    return {!world.contacts.empty() || !world.joints.empty(), "the settings ask for it"};
+  std::uint32_t staying = 0;
+  for (const BodyInfo& info : world.bodies.info)
+    if (info.alive && info.newton_steps > 0) ++staying;
+  const newton::Calls calls = newton::look_for_calls(world);
+  if (!calls.any() && staying == 0)
+    return {false, "no contact carries much more than the lighter body, or overlaps deeply"};
+  return {true, std::to_string(calls.mass) + " contacts have a heavy body on a light one, " +
+                    std::to_string(calls.load) + " press with many weights, " +
+                    std::to_string(calls.overlap) + " overlap under load; " +
+                    std::to_string(staying) + " bodies stay with it for a while"};
+}
+
 std::string of(std::uint32_t part, std::uint32_t whole, const char* what) {
   return std::to_string(part) + " of " + std::to_string(whole) + " " + what;
 }
@@ -216,6 +240,8 @@ StepPlan PhysicsWorld::plan() const {
          std::to_string(counts.driven) + " colliders have a surface that runs");
   decide(PlanItem::OneWay, counts.one_way > 0,
          std::to_string(counts.one_way) + " colliders are solid from one side only");
+  const detail::AccurateChoice accurate = detail::accurate_choice(world);
+  decide(PlanItem::AccurateContacts, accurate.active, accurate.reason);
   return plan;
 }
 

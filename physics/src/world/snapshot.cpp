@@ -28,6 +28,7 @@ void visit_world(Table& t, WorldState& world) {
   t("substeps", s.substeps);
   t("contact_spring", s.contact_frequency, s.contact_damping_ratio);
   t("rotation", s.rotation);
+  t("contact_solver", s.contact_solver);
   t("switches", s.warm_starting, s.sleeping, s.profiling);
   t("time_to_sleep", s.time_to_sleep);
   t("time", world.time);
@@ -45,6 +46,7 @@ void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentu
     i.locks.angular_y, i.locks.angular_z);
   t("island", i.island);
   t("rest_time", i.rest_time);
+  t("newton_steps", i.newton_steps);
   t("position", x.x.x, x.x.y, x.x.z);
   t("orientation", x.q.x, x.q.y, x.q.z, x.q.w);
   t("velocity", v.v.x, v.v.y, v.v.z);

@@ -15,6 +15,7 @@ void add_bodies(Digest& digest, const WorldState& world, bool rest) {
     add_motion(digest, slot, info, bodies.is_awake(slot), bodies.pose[info.dense],
                bodies.velocity[info.dense], bodies.momentum[info.dense].L);
     if (rest) digest.add(static_cast<double>(info.rest_time));
+    if (rest && info.newton_steps > 0) digest.add(std::uint64_t{info.newton_steps});
   }
 }
 

@@ -34,6 +34,7 @@ void run_stages(WorldState& world, double dt) {
   stage(Stage::Plan, [dt](WorldState& w) { plan_step(w, dt); });
   stage(Stage::Broadphase, find_pairs);
   stage(Stage::Narrowphase, collide_pairs);
+  stage(Stage::Islands, find_newton_islands);
   stage(Stage::Coloring, color_contacts);
   stage(Stage::Rows, build_rows);
   stage(Stage::Substeps, run_substeps);

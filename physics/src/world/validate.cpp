@@ -130,6 +130,9 @@ Status check(const WorldSettings& s) {
   if (s.rotation != RotationMethod::Exact && s.rotation != RotationMethod::ImplicitGyro &&
       s.rotation != RotationMethod::Book)
     return {StatusCode::OutOfRange, "rotation method is none of Exact, ImplicitGyro, Book"};
+  if (s.contact_solver != ContactSolver::SoftStep && s.contact_solver != ContactSolver::Newton &&
+      s.contact_solver != ContactSolver::Auto)
+    return {StatusCode::OutOfRange, "contact solver is none of SoftStep, Newton, Auto"};
   return {};
 }
 

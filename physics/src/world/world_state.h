@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "collision/aabb_tree.h"
@@ -18,6 +19,10 @@
 #include "world/world_image.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
+
+namespace newton {
+struct Solver;  // solver/newton/newton_solver.h
+}
 
 // Bodies that fell asleep together, with the contacts among them and their supports.
 struct SleepingIsland {
@@ -117,6 +122,7 @@ struct WorldState {
   std::vector<ContactRow<Real>> rows;  // in colour order
   std::vector<std::uint32_t> bouncing_rows;
   std::vector<SpinningRow> spinning_rows;
+  std::shared_ptr<newton::Solver> newton;      // null until a step calls for it
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
   std::vector<BodyDelta> delta;                // per dense index
   std::vector<SubstepBody> substep;            // per dense index
@@ -169,6 +175,7 @@ void put_to_sleep(WorldState& world, std::uint32_t body);  // with all it touche
 void plan_step(WorldState& world, double dt);
 void find_pairs(WorldState& world);
 void collide_pairs(WorldState& world);
+void find_newton_islands(WorldState& world);
 void color_contacts(WorldState& world);
 void build_rows(WorldState& world);
 // Bit i: point i carries more than a negligible normal impulse.

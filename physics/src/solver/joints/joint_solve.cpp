@@ -369,6 +369,12 @@ class PieceSolver {
 
 }  // namespace
 
+void note_approaches(JointBlock& block, const WorldState& world) {
+  const BlockVelocities u = read_velocities(world, block);
+  for (int i = block.held; i < block.rows; ++i)
+    note_approach(block.row[i], block.free[i - block.held], row_rate(block, i, u));
+}
+
 void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass) {
   const bool second = pass == JointPass::Relax;
   if (second && !block.split) return;  // one impulse for both passes: it is there already

@@ -29,6 +29,8 @@ struct WorldState;
 enum class JointPass : std::uint8_t { Solve, Relax };
 
 void prepare_joint(const WorldState& world, JointBlock& block);
+// How fast the forces drive limits that could bounce.
+void note_approaches(JointBlock& block, const WorldState& world);
 void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass);
 void solve_joints_of(WorldState& world, const JointPiece& piece, JointPass pass);
 // Where the drift has ended: takes away the errors of held rows, in positions alone.

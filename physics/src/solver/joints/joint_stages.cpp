@@ -21,8 +21,9 @@ void for_pieces(WorldState& world, Task&& task) {
     parallel_for(world, last - first, joint_tolerance::kPieceGrain,
                  [&](std::uint32_t begin, std::uint32_t end) {
                    for (std::uint32_t i = begin; i < end; ++i)
-                     if (!joints.system.pieces[offset + i].split)
-                       task(joints.system.pieces[offset + i]);
+                     if (const JointPiece& piece = joints.system.pieces[offset + i];
+                         !piece.split && !piece.newton)
+                       task(piece);
                  });
   }
 }

@@ -37,7 +37,8 @@ struct JointPiece {
   // None of its bodies touches anything: it is a whole group and goes through the substep by
   // itself.
   bool split = false;
-  Real h = 0;  // [s] its substep
+  Real h = 0;           // [s] its substep
+  bool newton = false;  // solved with the contacts of its island (solver/newton)
 };
 
 struct JointSystem {

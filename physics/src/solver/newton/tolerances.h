@@ -1,0 +1,61 @@
+// Numbers of the Newton solver that a user should not have to choose.
+#pragma once
+
+#include <cstddef>
+
+#include "plumb/precision.h"
+
+namespace plumb::inline PLUMB_ABI::detail::newton::tolerance {
+
+// The step length rho over the largest effective mass of an island [-]. It is no stiffness: at the
+// fixed point nothing of it is left. Larger: fewer outer iterations, wider jumps of Newton's
+// method, fewer digits; in double 1e8 leaves eight.
+inline constexpr double kStepLength = 1e8;
+// The same after an interior point, whose velocities have fewer digits, and its growth from one
+// outer iteration to the next [-].
+inline constexpr double kShortStepLength = 1e3;
+inline constexpr double kStepGrowth = 1e3;
+// Newton's iterations before an interior point is sought, and from there [-].
+inline constexpr int kPlainIterations = 5;
+inline constexpr int kInnerIterations = 15;
+// Iterations towards an interior point [-]; so often one is sought in one solve.
+inline constexpr int kInteriorIterations = 40;
+inline constexpr int kInteriorPoints = 5;
+// Outer iterations [-]; in the first of them what slides has a disc in place of its cone.
+inline constexpr int kOuterIterations = 20;
+inline constexpr int kDiscIterations = 12;
+// Newton's method ends when the momentum that no body accounts for is this part of what acts on it
+// [-].
+inline constexpr double kMomentum = 1e-9;
+// The outer iteration ends when contacts and joints miss their laws by this part of what gravity
+// and forces add to velocities in a substep [-], or of the speeds themselves [-].
+inline constexpr double kVelocity = 1e-6;
+inline constexpr double kRelativeVelocity = 1e-8;
+// Beyond this many times as much the report counts a solve as not converged [-].
+inline constexpr double kNotConverged = 1e3;
+
+// A point slides when it is faster than this part of what gravity adds in a substep [-].
+inline constexpr double kSlides = 1e-4;
+
+// Surfaces nearer than this part of the slop, on either side, just touch [-]: 2 um for a 1 m box.
+// To work off what is left would only stir what rests.
+inline constexpr double kTouching = 1e-3;
+// Part of an overlap that a substep takes away [-].
+inline constexpr double kPush = 0.2;
+
+// When an island calls for this solver by itself (choose.h; physics/README.md has the map that was
+// measured). A body on one that is so many times lighter [-]; a contact that presses with so many
+// weights of the lighter body [-]; loaded overlap of so many slops [-]; steps for which the two
+// must have touched for that [-]; steps for which a body that has called stays [-]; islands with
+// more bodies stay with the fast solver [-].
+inline constexpr Real kLightest = Real(4);
+inline constexpr Real kMostLoad = Real(12.5);
+inline constexpr Real kMostOverlap = Real(10);
+inline constexpr unsigned kStepsToBeLoad = 8;
+inline constexpr unsigned char kStepsToStay = 60;
+inline constexpr std::size_t kMostBodies = 300;
+
+// Blocks of 288 bytes in one island's factor [-]: 144 MB. Larger islands stay with the fast solver.
+inline constexpr std::size_t kMostBlocks = 500'000;
+
+}  // namespace plumb::inline PLUMB_ABI::detail::newton::tolerance
