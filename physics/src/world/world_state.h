@@ -15,6 +15,7 @@
 #include "world/collider_store.h"
 #include "world/contact_data.h"
 #include "world/joint_store.h"
+#include "world/ledger.h"
 #include "world/pair_store.h"
 #include "world/world_image.h"
 
@@ -104,6 +105,7 @@ struct WorldState {
   SceneCounts counts;
   JobSystem* jobs = nullptr;
   std::vector<StepObserver*> observers;
+  StepDiagnostics diagnostics;
   std::vector<InputRecord> inputs;  // since the last step; kept only while somebody observes
   bool stepping = false;
   bool replaying_input = false;
@@ -141,6 +143,9 @@ struct WorldState {
 
   // Events are gathered from the end of one step to the end of the next, then published together.
   EventLists gathering, published;
+  LedgerBook ledger;
+  std::unique_ptr<PhysicsWorld> twin;  // for the error estimate; with the image it is made from
+  Snapshot twin_image;
   mutable FactsCache facts;  // for images
   std::vector<OverlapChange> overlap_changes;
   std::vector<SensorOverlap> new_overlaps;
@@ -183,6 +188,11 @@ unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row);
 void run_substeps(WorldState& world);
 void stop_fast_bodies(WorldState& world);
 void finalize_bodies(WorldState& world);
+
+// --- error estimate (world/error_estimate.cpp) ---
+bool wants_estimate(const WorldState& world);  // of the coming step
+void step_twin(WorldState& world, const PhysicsWorld& original, double dt);
+void compare_with_twin(WorldState& world, const PhysicsWorld& original);
 
 // --- events (world/contact_events.cpp) ---
 void note_pair_end(WorldState& world, const Pair& pair);  // nothing if it did not touch
