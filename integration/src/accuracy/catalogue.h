@@ -13,6 +13,14 @@ enum class Family : std::uint8_t { Free, Bouncing, Sliding, Jointed, Stacked, Pu
 inline constexpr int kFamilyCount = 6;
 const char* name_of(Family family);
 
+// A figure that somebody else has published for the case [Kang 2018], on an i7-7700HQ.
+struct Published {
+  std::string engine;
+  double dt;       // [s]
+  double measure;  // in the publication's own measure
+  double seconds;  // [s] of computing; 0: not given
+};
+
 struct CaseInfo {
   std::string name;  // as in tests/accuracy/README.md
   Family family;
@@ -25,7 +33,10 @@ struct CaseInfo {
   bool turns = false;       // rotation methods are compared
   bool touches = false;     // warm starting is compared
   bool flies_fast = false;  // continuous collision is compared
-  bool chaotic = false;     // no error beyond a horizon: ensembles instead (chaos.h)
+  double measure = 0;       // published measure = this times the square of the error
+  double body_seconds = 0;  // [s] bodies times simulated time
+  std::vector<Published> published = {};
+  bool chaotic = false;  // no error beyond a horizon: ensembles instead (chaos.h)
 };
 
 const std::vector<CaseInfo>& catalogue();

@@ -48,6 +48,18 @@ std::string panel(const CaseResult& result) {
     add("series" + std::to_string(s), points,
         "with linespoints ls " + std::to_string(s + 1) + " title '" + label + "'");
   }
+  // What others have published, where the time is known too; on their machine, not on this one.
+  for (std::size_t i = 0; i < info.published.size(); ++i) {
+    const Published& p = info.published[i];
+    if (!(p.seconds > 0)) continue;
+    CellResult cell;
+    cell.cost = p.seconds / info.body_seconds;
+    cell.error = std::sqrt(p.measure / info.measure);
+    add("published" + std::to_string(i), point(cell),
+        "with points pt " + std::to_string(1 + static_cast<int>(i % 4)) +
+            " ps 1.8 lw 2.5 lc rgb 'black' title '" + p.engine + " " + step_words(p.dt) +
+            " s, published'");
+  }
   points.clear();
   for (const CellResult* cell : front) points += point(*cell);
   add("marks", points, "with points pt 6 ps 2 lw 1.5 lc rgb 'black' notitle");

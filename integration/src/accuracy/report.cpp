@@ -35,6 +35,24 @@ std::string processor() {
   return "unknown processor";
 }
 
+// Ours in the measure and the seconds of the publication, and the published figures under them.
+std::string published_of(const CaseResult& result) {
+  const CaseInfo& info = *result.info;
+  if (info.published.empty()) return {};
+  std::string out = "    as published [Kang 2018]: mean square, seconds for the whole scene\n";
+  const auto row = [&](const std::string& who, double dt, double measure, double seconds) {
+    out += "      " + padded(who, 30) + padded(step_words(dt), 8) +
+           padded(number(measure, "%.2e"), 12, true) +
+           padded(seconds > 0 ? number(seconds) + " s" : "-", 12, true) + "\n";
+  };
+  for (const CellResult& cell : result.cells)
+    row("Plumb, " + result.series[cell.series].label, cell.knobs.dt,
+        info.measure * cell.error * cell.error, cell.cost * info.body_seconds);
+  for (const Published& p : info.published)
+    row(p.engine + ", published", p.dt, p.measure, p.seconds);
+  return out;
+}
+
 }  // namespace
 
 Circumstances circumstances() {
@@ -75,7 +93,7 @@ std::string table_of(const CaseResult& result) {
     out += "    order of " + result.series[fit.series].label + ": " + number(fit.order, "%.2f") +
            " (" + std::to_string(fit.points) + " points)\n";
   }
-  return out;
+  return out + published_of(result);
 }
 
 std::string csv_of(const std::vector<CaseResult>& results, const Circumstances& where) {

@@ -57,8 +57,11 @@ const StepReport& PhysicsWorld::step(double dt) {
   detail::WorldState& world = *state_;
   StepReport& report = world.report;
   if (world.stepping) {
-    static const StepReport refused{
-        {StatusCode::InsideStep, "step() was called while the world steps"}};
+    static const StepReport refused = [] {
+      StepReport no;
+      no.status = {StatusCode::InsideStep, "step() was called while the world steps"};
+      return no;
+    }();
     return refused;
   }
   if (!std::isfinite(dt) || dt < 0) {
