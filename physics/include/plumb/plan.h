@@ -25,6 +25,18 @@ enum class PlanItem : unsigned char {
   RollingFriction,
   SurfaceVelocity,
   OneWay,
+  // Effects, in the order of EffectKind (plumb/effects.h).
+  PointGravity,
+  ForceField,
+  Thrust,
+  Explosion,
+  Drag,
+  Magnus,
+  Attractor,
+  Wind,
+  AeroSurface,
+  Buoyancy,
+  Spring,
   Count,
 };
 const char* name_of(PlanItem item);

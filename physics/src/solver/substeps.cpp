@@ -12,6 +12,7 @@
 //                 second order; theta is the share of the substep during which contacts slid
 #include <cmath>
 
+#include "effects/effect_world.h"
 #include "motion/body_motion.h"
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
@@ -184,7 +185,7 @@ void store_impulses(WorldState& world) {
 void fly(WorldState& world, std::uint32_t i) {
   SubstepBody& s = world.substep[i];
   const BodyMass& mass = world.bodies.mass[i];
-  if (s.constrained || !(mass.mass > Real(0))) return;
+  if (s.constrained || s.affected || !(mass.mass > Real(0))) return;
   BodyVelocity& velocity = world.bodies.velocity[i];
   const BodyForce& force = world.bodies.force[i];
   BodyDelta& delta = world.delta[i];
@@ -222,8 +223,11 @@ void run_substeps(WorldState& world) {
   const Real inverse_h = Real(1) / world.h;
   const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
   const bool joints = !world.joints.empty();
+  const bool effects = world.effects != nullptr && !world.effects->empty();
+  if (effects) begin_effects(world);
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
+    if (effects) act_effects(world);
     if (!world.spinning_rows.empty()) carry_drives(world);
     if (!world.bouncing_rows.empty()) run_impacts(world);
     for_awake_bodies(world, [&](std::uint32_t i) {
@@ -254,7 +258,9 @@ void run_substeps(WorldState& world) {
       for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
     for_rows_by_color(world, [&](ContactRow<Real>& row) { close_substep(world, row); });
     for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
+    if (effects) settle_effects(world);
   }
+  if (effects) end_effects(world);
   store_impulses(world);
   if (joints) store_joints(world);
   world.last_h = world.h;
