@@ -124,6 +124,8 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
     const bool turns = resist_turning(world, row, false, u);
     solve_friction(row, u, load, sliding);
     if (turns) sliding = load;  // its speeds ramp as those of what slides
+    write_velocities(world, row, u);
+    note_load(world, row, load, sliding);
   }
 }
 
