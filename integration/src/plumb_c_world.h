@@ -46,6 +46,8 @@ inline plumb_status code_of(plumb::StatusCode code) {
       return PLUMB_BAD_SNAPSHOT;
     case plumb::StatusCode::InsideStep:
       return PLUMB_INSIDE_STEP;
+    case plumb::StatusCode::Unreachable:  // no call of this interface says so
+      return PLUMB_OUT_OF_RANGE;
   }
   return PLUMB_OUT_OF_RANGE;
 }

@@ -1,13 +1,15 @@
 # Hang guard for one test case, far above what any takes; no test passes or fails by its speed.
 set(PLUMB_TEST_TIMEOUT 900)  # [s]
 
-# One Google Test program from tests/<FOLDER>, and one ctest entry per test case in it.
-#   plumb_test_program(<target> FOLDER f [READS_TREE] [PREFIX p] [LIBRARIES ...] [INCLUDES ...])
+# One Google Test program from tests/<FOLDER> (one or more), and one ctest entry per test case in it.
+#   plumb_test_program(<target> FOLDER f... [READS_TREE] [PREFIX p] [LIBRARIES ...] [INCLUDES ...])
 # READS_TREE: the tests read files of this source tree, found below PLUMB_SOURCE_DIR. The others know
 # no absolute path, so that the compiler cache serves any checkout.
 function(plumb_test_program target)
-  cmake_parse_arguments(arg "READS_TREE" "FOLDER;PREFIX" "LIBRARIES;INCLUDES" ${ARGN})
-  plumb_glob(sources ${arg_FOLDER}/*.cpp ${arg_FOLDER}/*.c)
+  cmake_parse_arguments(arg "READS_TREE" "PREFIX" "FOLDER;LIBRARIES;INCLUDES" ${ARGN})
+  list(TRANSFORM arg_FOLDER APPEND /*.cpp OUTPUT_VARIABLE cpp_files)
+  list(TRANSFORM arg_FOLDER APPEND /*.c OUTPUT_VARIABLE c_files)
+  plumb_glob(sources ${cpp_files} ${c_files})
   if(NOT sources)
     return()
   endif()

@@ -200,7 +200,8 @@ inline constexpr std::string_view kMotorModes[] = {"velocity", "position"};
 
 // Words with a fixed meaning, in the order of the enum they stand for.
 inline constexpr std::string_view kMotionTypes[] = {"static", "kinematic", "dynamic"};
-inline constexpr std::string_view kRotationMethods[] = {"exact", "implicit_gyro", "book"};
+inline constexpr std::string_view kRotationMethods[] = {
+    "exact", "implicit_gyro", "book", "explicit_gyro", "splitting", "splitting4", "rk4", "jacobi"};
 inline constexpr std::string_view kContactSolvers[] = {"soft_step", "newton", "auto"};
 inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum",
                                                      "maximum", "multiply"};

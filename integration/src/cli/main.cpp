@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
+#include "cli/accuracy.h"
 #include "cli/commands.h"
 #include "plumb/integration/version.h"
 #include "plumb/precision.h"
@@ -110,6 +112,8 @@ int program(int argc, char** argv) {
   plan->add_option("SCENE", plan_scene, "Scene file (JSON)")->required();
   plan->callback([&] { exit_code = print_plan(plan_scene); });
   add_replay(app, replay, exit_code);
+  std::vector<std::string> lab_arguments;
+  add_accuracy(app, lab_arguments, exit_code);
 
   try {
     app.parse(argc, argv);

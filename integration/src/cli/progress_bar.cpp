@@ -32,9 +32,10 @@ void ProgressBar::show(std::uint64_t done, double simulated_seconds) {
   const auto filled = static_cast<std::size_t>(share * static_cast<double>(kWidth));
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   const double left = share > 0 ? elapsed / share - elapsed : 0;
-  std::fprintf(stderr, "%s[%s%s] %3.0f %%  %.1f s simulated, %.0f s left", kWipe,
-               std::string(filled, '#').c_str(), std::string(kWidth - filled, '.').c_str(),
-               100 * share, simulated_seconds, left);
+  std::fprintf(stderr, "%s[%s%s] %3.0f %%  ", kWipe, std::string(filled, '#').c_str(),
+               std::string(kWidth - filled, '.').c_str(), 100 * share);
+  if (simulated_seconds >= 0) std::fprintf(stderr, "%.1f s simulated, ", simulated_seconds);
+  std::fprintf(stderr, "%.0f s left", left);
 }
 
 }  // namespace plumb::cli

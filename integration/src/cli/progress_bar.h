@@ -13,6 +13,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
+  // simulated_seconds: below zero where there is nothing to say about them.
   void show(std::uint64_t done, double simulated_seconds);
 
  private:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "plumb/diagnostics.h"
 #include "plumb/math.h"
 #include "plumb/status.h"
 
@@ -57,6 +58,11 @@ struct StepReport {
 
   // Wall time per stage [s]; zero unless WorldSettings::profiling.
   std::array<double, kStageCount> stage_seconds{};
+
+  // Zero unless PhysicsWorld::set_diagnostics asks for them.
+  ErrorEstimate error;
+  EnergyLedger energy;
+  MomentumLedger momentum;
 };
 
 // Mechanical energy and momentum of all dynamic bodies, summed in double.

@@ -9,11 +9,34 @@
 
 namespace plumb::inline PLUMB_ABI {
 
+// How bodies turn between kicks. Exact is the one to use: it takes for each body the form that its
+// inertia allows (ball, symmetric top, any other). The others are there to be compared with it.
 enum class RotationMethod : std::uint8_t {
   Exact,         // torque-free flow, exact to round-off (src/motion/rotation_flow.h); the default
   ImplicitGyro,  // one Newton step of the implicit gyroscopic term: damps tumbling [Catto 2015]
   Book,          // first-order quaternion update, no gyroscopic term [Millington 2010]
+  ExplicitGyro,  // gyroscopic term from the start of the step, order 1: tumbling gains energy
+  Splitting,     // rotations about the principal axes in turn, order 2, keeps L [McLachlan 1993]
+  Splitting4,    // five of these, order 4, keeps L [Suzuki 1990]
+  RK4,           // classical Runge-Kutta on quaternion and body rates, order 4
+  Jacobi,        // elliptic functions, attitude by quadrature; exact to round-off [van Zon 2007]
 };
+inline constexpr int kRotationMethodCount = 8;
+const char* name_of(RotationMethod method);  // "Exact", "ImplicitGyro", ...
+
+// What a scene is made of, as far as it decides which settings are good enough.
+enum class SceneKind : std::uint8_t {
+  Any,   // the worst of the others
+  Free,  // flying, tumbling
+  Bouncing,
+  Sliding,  // sliding and rolling
+  Jointed,  // pendulums, tops, chains
+  Stacked,  // resting, columns
+};
+inline constexpr int kSceneKindCount = 6;
+const char* name_of(SceneKind kind);
+
+struct SettingsChoice;
 
 // How contacts and joints that touch something are solved.
 enum class ContactSolver : std::uint8_t {
@@ -44,7 +67,29 @@ struct WorldSettings {
   bool sleeping = true;       // islands at rest stop costing anything
   Real time_to_sleep = Real(0.5);  // [s] >= 0 that every body of an island must have been at rest
   bool profiling = false;          // fill StepReport::stage_seconds
+
+  // The cheapest settings and step known to keep the error below a tolerance, or the most accurate
+  // ones within a budget, by measurements of this build's number types (`plumb accuracy --table`
+  // makes them again, src/world/measured_settings.cpp holds them).
+  //   tolerance  [-] > 0: error relative to the size of the motion after a few seconds; beyond a
+  //              second or so chaotic scenes have no such error
+  //   budget     [s] > 0 of computing for a body and a simulated second
+  //   dt         [s] > 0: only settings for this step or a shorter one; 0: any step
+  // OutOfRange where an argument is; Unreachable, with the best there is, where nothing measured
+  // is as good or as cheap.
+  static SettingsChoice from_tolerance(double tolerance, SceneKind kind = SceneKind::Any,
+                                       double dt = 0);
+  static SettingsChoice from_budget(double budget, SceneKind kind = SceneKind::Any, double dt = 0);
 };
+
+struct SettingsChoice {
+  Status status;
+  WorldSettings settings;  // the defaults, with substeps as measured
+  double dt = 0;           // [s] to call step() with
+  double error = 0;        // [-] measured with them: the worst case of the kind
+  double cost = 0;         // [s] measured for a body and a simulated second, on the machine below
+};
+const char* measured_on();  // machine, compiler and commit of those measurements
 
 // Whether every number is finite and in its range.
 Status check(const WorldSettings& settings);

@@ -17,6 +17,7 @@ enum class StatusCode : unsigned char {
   CapacityExceeded,
   BadSnapshot,  // a snapshot does not fit this build or is damaged
   InsideStep,   // called from an observer or a job while the world steps
+  Unreachable,  // nothing known is as good, or as cheap, as asked for
 };
 
 struct [[nodiscard]] Status {

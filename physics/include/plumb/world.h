@@ -55,6 +55,9 @@ class PhysicsWorld {
   Status set_settings(const WorldSettings& settings);
   // Threads for the coming steps; null: the calling thread alone. Not owned, must outlive its use.
   void set_job_system(JobSystem* jobs);
+  // What the coming steps tell about their accuracy (plumb/diagnostics.h).
+  void set_diagnostics(const StepDiagnostics& diagnostics);
+  [[nodiscard]] const StepDiagnostics& diagnostics() const;
 
   // --- acting on bodies ------------------------------------------------------------------------
   // Forces and torques act throughout the next step and are then forgotten; impulses act at once.

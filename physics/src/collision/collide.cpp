@@ -5,6 +5,7 @@
 #include "collision/collide_pairs.h"
 #include "collision/collide_parts.h"
 #include "collision/core_distance.h"
+#include "collision/separating_face.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -129,7 +130,7 @@ bool is_placed(NumVec p, NumRotation a, NumRotation b) {
 }  // namespace
 
 bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
-             const Transform& xb, Real margin, Manifold& out) {
+             const Transform& xb, Real margin, Manifold& out, SeparatingFace* apart) {
   out.count = 0;
   if (has_parts(a.type) || has_parts(b.type))
     return collide_deepest_part(a, xa, b, xb, margin, out);
@@ -148,8 +149,13 @@ bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape&
   const AddedRadii radii = added_radii(first, second);
   const Num added = radii.first + radii.second;
   const Placed placed_first{first, {0, 0, 0}, q_first}, placed_second{second, offset, q_second};
+  const Num reach = static_cast<Num>(margin) + added;
+  if (apart != nullptr &&
+      keeps_apart(swap ? apart->swapped() : *apart, placed_first, placed_second, reach))
+    return false;
   Contacts contacts;
-  routine(placed_first, placed_second, static_cast<Num>(margin) + added, contacts);
+  routine(placed_first, placed_second, reach, contacts);
+  if (apart != nullptr) *apart = swap ? contacts.apart.swapped() : contacts.apart;
   if (contacts.count == 0) return false;
   if (added > Num(0)) grow(placed_first, placed_second, radii, contacts);
 

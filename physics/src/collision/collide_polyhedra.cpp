@@ -136,23 +136,44 @@ ContactAxis edges_axis(const PlacedPolyhedron& a, const PlacedPolyhedron& b, con
   return axis;
 }
 
+// The ball about a shape's inner point.
+struct Ball {
+  NumVec centre;
+  Num radius;  // [m]
+};
+Ball ball_around(const Placed& x) {
+  if (x.shape.type == ShapeType::Box) return {x.p, length(to_num(x.shape.half))};
+  return {x.p + rotate(x.q, to_num(x.shape.hull->interior_point())),
+          static_cast<Num>(x.shape.hull->outer_radius())};
+}
+bool balls_apart(const Placed& a, const Placed& b, Num margin) {
+  const Ball ball_a = ball_around(a), ball_b = ball_around(b);
+  const Num reach = ball_a.radius + ball_b.radius + margin;
+  return !(length_squared(ball_b.centre - ball_a.centre) <= reach * reach);
+}
+
 }  // namespace
 
 void collide_polyhedra(const Placed& placed_a, const Placed& placed_b, Num margin, Contacts& out) {
+  if (balls_apart(placed_a, placed_b, margin)) return;
   const NumRotation to_a = conjugate(placed_a.q);
   const NumMatrix identity{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const PlacedPolyhedron a(placed_a.shape, identity, {0, 0, 0});
   const PlacedPolyhedron b(placed_b.shape, to_matrix(to_a * placed_b.q), rotate(to_a, placed_b.p));
   const NumVec towards = b.centre() - a.centre();
-  const Num reach = a.outer_radius() + b.outer_radius() + margin;
-  if (!(length_squared(towards) <= reach * reach)) return;
 
   const Best face_a = best_face(a, b, -std::numeric_limits<Num>::infinity());
-  if (!(face_a.separation <= margin)) return;
+  if (!(face_a.separation <= margin)) {
+    out.apart = {face_a.a, false};
+    return;
+  }
   const Num thickness = std::min(a.inner_radius(), b.inner_radius());
   const Num preference = kFacePreference * thickness;
   const Best face_b = best_face(b, a, face_a.separation);
-  if (!(face_b.separation <= margin)) return;
+  if (!(face_b.separation <= margin)) {
+    out.apart = {face_b.a, true};
+    return;
+  }
   const Num best_of_faces = std::max(face_a.separation, face_b.separation);
   const Best edges = best_edges(a, b, best_of_faces);
   if (!(edges.separation <= margin)) return;

@@ -26,6 +26,7 @@ struct ContactPoint {
 struct Contacts {
   NumVec normal;
   int count = 0;
+  SeparatingFace apart;  // where count is 0 and a face is the reason
   ContactPoint points[Manifold::kMaxPoints];
 
   void add(NumVec position, Num separation, std::uint32_t feature) {

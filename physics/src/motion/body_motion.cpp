@@ -2,6 +2,10 @@
 
 #include <cmath>
 
+#include "motion/jacobi_flow.h"
+#include "motion/named_integrators.h"
+#include "motion/splitting.h"
+
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
@@ -71,6 +75,25 @@ Symmetric3<Real> inverse_in_free_axes(const Symmetric3<Real>& inertia, std::uint
   return out;
 }
 
+namespace {
+
+// Methods whose state is w: L in, L out.
+void turn_by_velocity(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, Real h) {
+  Vec w = angular_velocity_of(m, q, L);
+  if (method == RotationMethod::Book) {
+    advance_book(q, w, h);
+  } else if (method == RotationMethod::ExplicitGyro) {
+    advance_explicit_gyro(q, w, m.moments, m.inverse_moments, h);
+  } else if (method == RotationMethod::ImplicitGyro) {
+    advance_implicit_gyro(q, w, m.moments, h);
+  } else {
+    advance_rk4(q, w, m.moments, m.inverse_moments, h);
+  }
+  L = angular_momentum_of(m, q, w);
+}
+
+}  // namespace
+
 void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, Real h) {
   if (m.angular_locks != 0) {  // the locks' torques keep the free part of L, not the tumbling
     q = normalized(from_rotation_vector(h * angular_velocity_of(m, q, L)) * q);
@@ -80,19 +103,48 @@ void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, 
     case RotationMethod::Exact:
       advance_rotation(q, L, m.inverse_moments, h);
       return;
-    case RotationMethod::ImplicitGyro: {
-      Vec w = angular_velocity_of(m, q, L);
-      advance_implicit_gyro(q, w, m.moments, h);
-      L = angular_momentum_of(m, q, w);
+    case RotationMethod::Jacobi:
+      advance_jacobi(q, L, m.inverse_moments, h);
       return;
-    }
-    case RotationMethod::Book: {
-      const Vec w = angular_velocity_of(m, q, L);
-      advance_book(q, w, h);
-      L = angular_momentum_of(m, q, w);
+    case RotationMethod::Splitting:
+      advance_splitting(q, L, m.inverse_moments, h);
       return;
-    }
+    case RotationMethod::Splitting4:
+      advance_splitting4(q, L, m.inverse_moments, h);
+      return;
+    case RotationMethod::Book:
+    case RotationMethod::ExplicitGyro:
+    case RotationMethod::ImplicitGyro:
+    case RotationMethod::RK4:
+      turn_by_velocity(method, m, q, L, h);
+      return;
   }
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail
+
+namespace plumb::inline PLUMB_ABI {
+
+const char* name_of(RotationMethod method) {
+  switch (method) {
+    case RotationMethod::Exact:
+      return "Exact";
+    case RotationMethod::ImplicitGyro:
+      return "ImplicitGyro";
+    case RotationMethod::Book:
+      return "Book";
+    case RotationMethod::ExplicitGyro:
+      return "ExplicitGyro";
+    case RotationMethod::Splitting:
+      return "Splitting";
+    case RotationMethod::Splitting4:
+      return "Splitting4";
+    case RotationMethod::RK4:
+      return "RK4";
+    case RotationMethod::Jacobi:
+      return "Jacobi";
+  }
+  return "";
+}
+
+}  // namespace plumb::inline PLUMB_ABI

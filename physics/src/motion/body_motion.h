@@ -2,7 +2,6 @@
 // known forces, and free flight.
 #pragma once
 
-#include "motion/named_integrators.h"
 #include "motion/rotation_flow.h"
 #include "plumb/settings.h"
 #include "world/body_store.h"
@@ -43,8 +42,13 @@ struct DampedMotion {
 };
 DampedMotion damped_motion(Real damping, Real h);
 
-// Turns a body freely for a time h by the chosen method. L is the state; methods that do not keep
-// it (Book, ImplicitGyro) write theirs back.
+// Whether a method leaves L as it is. The others work on w and write their L back.
+constexpr bool keeps_momentum(RotationMethod method) {
+  return method == RotationMethod::Exact || method == RotationMethod::Jacobi ||
+         method == RotationMethod::Splitting || method == RotationMethod::Splitting4;
+}
+
+// Turns a body freely for a time h by the chosen method. Locked axes are the same under all.
 void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, Real h);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,7 +1,9 @@
-// Rotation integrators of other engines, for comparison only: they keep neither energy nor angular
-// momentum, and the accuracy charts show by how much. The engine's own flow is rotation_flow.h.
+// Rotation integrators of other engines and of textbooks, for comparison only: they keep neither
+// energy nor angular momentum, and the accuracy charts show by how much. The engine's own flow is
+// rotation_flow.h.
 //
-// Both take the attitude R (principal axes to world) and the angular velocity w in world axes.
+// All take the attitude R (principal axes to world) and the angular velocity w in world axes;
+// moments I [kg m^2], inverse moments J [1/(kg m^2)], a time h [s].
 #pragma once
 
 #include "math/quaternion.h"
@@ -46,6 +48,51 @@ void advance_implicit_gyro(Quaternion<T>& R_WP, Vector3<T>& w_W, Vector3<T> mome
     w_W = rotate(R_WP, w - dw);
   }
   R_WP = turned_first_order(R_WP, w_W, h);
+}
+
+// Euler's equations from the start of the step, w += h J (I w x w) in body axes, then the
+// first-order quaternion. First order; feeds energy into whatever tumbles, until it is infinite.
+template <class T>
+void advance_explicit_gyro(Quaternion<T>& R_WP, Vector3<T>& w_W, Vector3<T> moments,
+                           Vector3<T> inverse_moments, T h) {
+  const Vector3<T> w = inverse_rotate(R_WP, w_W);
+  const Vector3<T> rate = multiply_each(inverse_moments, cross(multiply_each(moments, w), w));
+  w_W = rotate(R_WP, w + h * rate);
+  R_WP = turned_first_order(R_WP, w_W, h);
+}
+
+// The classical fourth-order Runge-Kutta method on the seven numbers
+//   R' = (1/2) R w,   w' = J (I w x w)      w in body axes,
+// with R made unit afterwards [Hairer 1993, II.1].
+template <class T>
+void advance_rk4(Quaternion<T>& R_WP, Vector3<T>& w_W, Vector3<T> moments,
+                 Vector3<T> inverse_moments, T h) {
+  struct State {
+    Quaternion<T> R;
+    Vector3<T> w;
+  };
+  const auto moved = [](const State& y, T s, const State& rate) {
+    return State{
+        {y.R.x + s * rate.R.x, y.R.y + s * rate.R.y, y.R.z + s * rate.R.z, y.R.w + s * rate.R.w},
+        y.w + s * rate.w};
+  };
+  const auto rate_at = [&](const State& y) {
+    const Quaternion<T> turn = y.R * Quaternion<T>{y.w.x, y.w.y, y.w.z, T(0)};
+    const T half = T(0.5);
+    return State{{half * turn.x, half * turn.y, half * turn.z, half * turn.w},
+                 multiply_each(inverse_moments, cross(multiply_each(moments, y.w), y.w))};
+  };
+  const State start{R_WP, inverse_rotate(R_WP, w_W)};
+  const State k1 = rate_at(start);
+  const State k2 = rate_at(moved(start, T(0.5) * h, k1));
+  const State k3 = rate_at(moved(start, T(0.5) * h, k2));
+  const State k4 = rate_at(moved(start, h, k3));
+  State end = moved(start, h / T(6), k1);
+  end = moved(end, h / T(3), k2);
+  end = moved(end, h / T(3), k3);
+  end = moved(end, h / T(6), k4);
+  R_WP = normalized(end.R);
+  w_W = rotate(R_WP, end.w);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -20,6 +20,7 @@
 #include "solver/row_end.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
+#include "world/ledger_charges.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -70,6 +71,24 @@ void write_velocities(WorldState& world, const ContactRow<Real>& row,
   }
 }
 
+// Enters what a row does, part by part, when the ledger is kept.
+class RowCharge {
+ public:
+  RowCharge(WorldState& world, const ContactRow<Real>& row, bool on)
+      : world_(world), row_(row), on_(on), energy_(on ? row_energy(world, row) : 0) {}
+  void as(double EnergyLedger::*entry, const RowVelocities<Real>& u) {
+    if (!on_) return;
+    write_velocities(world_, row_, u);
+    energy_ = charge_row(world_, row_, energy_, entry);
+  }
+
+ private:
+  WorldState& world_;
+  const ContactRow<Real>& row_;
+  bool on_;
+  double energy_;
+};
+
 // Bodies that only joints hold have a loop of their own (joints/joint_flight.cpp).
 bool in_contact_loop(const SubstepBody& s) { return s.constrained && !s.split; }
 
@@ -99,7 +118,7 @@ void finish_substep(WorldState& world, std::uint32_t i) {
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
-  if (length_squared(lost) > Real(0) && world.settings.rotation == RotationMethod::Exact) {
+  if (length_squared(lost) > Real(0) && keeps_momentum(world.settings.rotation)) {
     const Vec turn =
         weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost);
     delta.dq = normalized(from_rotation_vector(turn) * delta.dq);
@@ -120,9 +139,12 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
     const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
     RowVelocities<Real> u = read_velocities(world, row);
     Real load = 0, sliding = 0;
+    RowCharge charged(world, row, world.diagnostics.ledger);
     solve_normal(row, change, inverse_h, false, u);
+    charged.as(&EnergyLedger::normal, u);
     const bool turns = resist_turning(world, row, false, u);
     solve_friction(row, u, load, sliding);
+    charged.as(&EnergyLedger::friction, u);
     if (turns) sliding = load;  // its speeds ramp as those of what slides
     write_velocities(world, row, u);
     note_load(world, row, load, sliding);
@@ -193,41 +215,66 @@ void run_substeps(WorldState& world) {
   const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
   const bool joints = !world.joints.empty();
   const bool newton = world.newton != nullptr && world.newton->count > 0;
+  const bool ledger = world.diagnostics.ledger;
+  JobSystem* const jobs = world.jobs;
+  if (ledger) {
+    world.jobs = nullptr;  // the book is written by one thread
+    open_ledger(world);
+  }
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
+  if (ledger) charge_flight(world);
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (!world.spinning_rows.empty()) carry_drives(world);
     if (!world.bouncing_rows.empty()) run_impacts(world);
+    if (ledger) charge_bounces(world);
     for_awake_bodies(world, [&](std::uint32_t i) {
       if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
     });
+    if (ledger) charge_kick(world);
     if (joints) fly_joint_groups(world);
+    if (ledger) charge_joint_flight(world);
     if (joints) warm_start_joints(world);
+    if (ledger) charge(world, &EnergyLedger::joints);
     for_rows_by_color(world, [&](ContactRow<Real>& row) {
       if (row.skip) return;
       RowVelocities<Real> u = read_velocities(world, row);
+      const RowVelocities<Real> before = u;
+      const double energy = ledger ? row_energy(world, row) : 0;
       warm_start(row, u);
       write_velocities(world, row, u);
+      if (ledger) charge_warm_start(world, row, energy, before, u);
     });
+    if (ledger) charge(world, &EnergyLedger::normal);
     if (joints) solve_joints(world);
+    if (ledger) charge(world, &EnergyLedger::joints);
     for_rows_by_color(world, [&](ContactRow<Real>& row) {
       if (row.skip) return;
       const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
       RowVelocities<Real> u = read_velocities(world, row);
       Real load = 0, sliding = 0;
+      RowCharge charged(world, row, ledger);
       solve_normal(row, change, inverse_h, true, u);
+      charged.as(&EnergyLedger::normal, u);
       resist_turning(world, row, true, u);
       solve_friction(row, u, load, sliding);
+      charged.as(&EnergyLedger::friction, u);
       write_velocities(world, row, u);
     });
     if (newton) solve_newton_islands(world);
+    if (ledger) charge(world, &EnergyLedger::normal);
     for_awake_bodies(world, [&](std::uint32_t i) { drift(world, i); });
+    if (ledger) charge_drift(world);
     if (newton) settle_newton_islands(world);
     if (joints) relax_joints(world);
+    if (ledger) charge(world, &EnergyLedger::joints);
     for (int pass = 0; pass < relax_passes; ++pass)
       for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
     for_rows_by_color(world, [&](ContactRow<Real>& row) { close_row(world, row); });
+    if (ledger) charge(world, &EnergyLedger::normal);
     for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
+    if (ledger) charge_finish(world);
   }
+  world.jobs = jobs;
   store_impulses(world);
   if (joints) store_joints(world);
   if (newton) report_newton_islands(world);

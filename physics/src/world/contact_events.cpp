@@ -56,6 +56,9 @@ void note_contact_events(WorldState& world) {
       }
       now = impulse > Real(0) || nearest <= pair.slop ||
             (pair.was_touching && nearest <= tolerance::kMarginSlops * pair.slop);
+      const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
+      for (Contact& contact : contacts_of(pair, world.contacts))
+        contact.seen_from = now ? seen_from : kNone;
     }
     if (now == pair.was_touching) continue;
     pair.was_touching = now;

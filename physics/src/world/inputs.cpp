@@ -259,7 +259,7 @@ WorldSettings NumberReader::settings() {
   s.substeps = static_cast<int>(word());
   s.contact_frequency = real();
   s.contact_damping_ratio = real();
-  s.rotation = choice<RotationMethod>(*this, 3, ok_);
+  s.rotation = choice<RotationMethod>(*this, kRotationMethodCount, ok_);
   s.warm_starting = flag();
   s.sleeping = flag();
   s.time_to_sleep = real();

@@ -184,7 +184,7 @@ void collide_pair_of_parts(const WorldState& world, std::uint32_t index, const P
 void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& out) {
   const Pair& pair = world.pairs[index];
   PairFindings& found = world.findings[index];
-  found = {static_cast<std::uint32_t>(out.size()), 0, false, false};
+  found = {.first = static_cast<std::uint32_t>(out.size()), .apart = pair.apart};
   const BodyStore& bodies = world.bodies;
   const std::uint32_t slot_a = pair.collider_a(), slot_b = pair.collider_b();
   const bool some_awake = bodies.is_awake(pair.body_a) || bodies.is_awake(pair.body_b);
@@ -224,7 +224,7 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
       collide(a.shape, xa, b.shape, moved, margin, contact.manifold)) {
     set_back(pair, advance, contact);
   } else {
-    collide(a.shape, xa, b.shape, xb, margin, contact.manifold);
+    collide(a.shape, xa, b.shape, xb, margin, contact.manifold, &found.apart);
   }
   if (contact.manifold.count == 0) {
     out.pop_back();
@@ -292,6 +292,7 @@ void take_findings(WorldState& world) {
     pair.contact_count = found.count;
     pair.touching = found.count > 0 || found.overlaps;
     pair.passage = found.passage;
+    pair.apart = found.apart;
     move_contacts(pair, world.contacts_by_chunk[chunk], world.new_contacts);
     for (Contact& contact : contacts_of(pair, world.new_contacts)) contact.pair = kept;
     ++kept;

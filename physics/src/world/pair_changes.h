@@ -65,6 +65,7 @@ class PairsOfBody {
         seen_.push_back({i, reference_of(world, world.pairs[i])});
   }
   void remake(WorldState& world) const {
+    world.contacts_fit = 0;
     for (const Seen& seen : seen_) {
       Pair& pair = world.pairs[seen.pair];
       pair = remake_pair(world, pair);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "collision/manifold.h"
+#include "world/body_store.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -21,7 +22,7 @@ enum class Passage : std::uint8_t {
   Passing,  // met from elsewhere: no contact
 };
 
-struct Pair {                            // 56 bytes in f32
+struct Pair {                            // 64 bytes in f32
   std::uint64_t key = 0;                 // smaller collider slot << 32 | larger one
   std::uint32_t body_a = 0, body_b = 0;  // slots
   Real friction = 0, restitution = 0;    // combined [-]
@@ -37,6 +38,7 @@ struct Pair {                            // 56 bytes in f32
   bool driven = false;         // the surface of one of them runs
   bool one_way = false;        // one of them is solid from one side only
   Passage passage = Passage::Apart;
+  SeparatingFace apart;  // where the narrowphase looks first; no result depends on it
 
   [[nodiscard]] std::uint32_t collider_a() const { return static_cast<std::uint32_t>(key >> 32); }
   [[nodiscard]] std::uint32_t collider_b() const {
@@ -44,19 +46,23 @@ struct Pair {                            // 56 bytes in f32
   }
 };
 
+// What readers and events look at lies in front, so that they pass over the rest.
 struct Contact {
   std::uint32_t pair = 0;  // index into the awake pairs, valid within the step
   std::uint32_t part = 0;  // of a shape made of parts: which one; else 0
-  bool at_rest = false;    // the contact solver, not a bounce, carried it in the last substep
+  // Slot of the body from whose centre of mass positions are seen; kNone: the pair does not touch.
+  // Valid after the step until a pair is changed (WorldState::contacts_fit).
+  std::uint32_t seen_from = kNone;
+  Manifold manifold;  // positions from that body's centre of mass, world axes
+  Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step
+  bool at_rest = false;  // the contact solver, not a bounce, carried it in the last substep
+  Real radius_a = 0, radius_b = 0;  // [m] of the rounded shapes that touch; 0 for the others
   // A swept pair's manifold is that of the moment of first touch: B is then this much farther
   // along, seen from A [m], and the separations are those of the step's start again.
   Vec advance{0, 0, 0};
-  Real advanced_gap = 0;            // [m] what that added to the separations
-  Manifold manifold;                // positions from that body's centre of mass, world axes
-  Real radius_a = 0, radius_b = 0;  // [m] of the rounded shapes that touch; 0 for the others
-  Real normal_impulse[Manifold::kMaxPoints]{};       // [N s] of the last substep: the warm start
-  Vec friction_impulse[Manifold::kMaxPoints]{};      // [N s] on B, world axes
-  Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step
+  Real advanced_gap = 0;                         // [m] what that added to the separations
+  Real normal_impulse[Manifold::kMaxPoints]{};   // [N s] of the last substep: the warm start
+  Vec friction_impulse[Manifold::kMaxPoints]{};  // [N s] on B, world axes
   Vec step_friction_impulse[Manifold::kMaxPoints]{};
 };
 

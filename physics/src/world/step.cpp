@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "world/joint_world.h"
+#include "world/ledger_charges.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace detail {
@@ -39,7 +40,9 @@ void run_stages(WorldState& world, double dt) {
   stage(Stage::Rows, build_rows);
   stage(Stage::Substeps, run_substeps);
   stage(Stage::Continuous, stop_fast_bodies);
+  if (world.diagnostics.ledger) weigh_paths(world);
   stage(Stage::Finalize, finalize_bodies);
+  if (world.diagnostics.ledger) close_ledger(world);
   stage(Stage::Sleep, sleep_islands);
   if (!world.joints.empty()) break_joints(world);
   std::swap(world.published, world.gathering);
@@ -54,8 +57,11 @@ const StepReport& PhysicsWorld::step(double dt) {
   detail::WorldState& world = *state_;
   StepReport& report = world.report;
   if (world.stepping) {
-    static const StepReport refused{
-        {StatusCode::InsideStep, "step() was called while the world steps"}};
+    static const StepReport refused = [] {
+      StepReport no;
+      no.status = {StatusCode::InsideStep, "step() was called while the world steps"};
+      return no;
+    }();
     return refused;
   }
   if (!std::isfinite(dt) || dt < 0) {
@@ -68,7 +74,10 @@ const StepReport& PhysicsWorld::step(double dt) {
     report.dt = 0;
     return report;
   }
+  const bool estimate = detail::wants_estimate(world);
+  if (estimate) detail::step_twin(world, *this, dt);
   detail::run_stages(world, dt);
+  if (estimate) detail::compare_with_twin(world, *this);
   if (!world.observers.empty()) {
     const Events happened = events();
     const StepView view{*this, report, happened, world.inputs};

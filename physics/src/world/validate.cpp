@@ -127,9 +127,8 @@ Status check(const WorldSettings& s) {
     return {StatusCode::OutOfRange, "contact damping ratio must be finite and not negative"};
   if (!std::isfinite(s.time_to_sleep) || s.time_to_sleep < 0)
     return {StatusCode::OutOfRange, "time to sleep must be finite and not negative [s]"};
-  if (s.rotation != RotationMethod::Exact && s.rotation != RotationMethod::ImplicitGyro &&
-      s.rotation != RotationMethod::Book)
-    return {StatusCode::OutOfRange, "rotation method is none of Exact, ImplicitGyro, Book"};
+  if (static_cast<int>(s.rotation) >= kRotationMethodCount)
+    return {StatusCode::OutOfRange, "rotation method is none of the eight of RotationMethod"};
   if (s.contact_solver != ContactSolver::SoftStep && s.contact_solver != ContactSolver::Newton &&
       s.contact_solver != ContactSolver::Auto)
     return {StatusCode::OutOfRange, "contact solver is none of SoftStep, Newton, Auto"};

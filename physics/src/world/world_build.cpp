@@ -173,6 +173,12 @@ Status PhysicsWorld::set_settings(const WorldSettings& settings) {
 
 void PhysicsWorld::set_job_system(JobSystem* jobs) { state_->jobs = jobs; }
 
+void PhysicsWorld::set_diagnostics(const StepDiagnostics& diagnostics) {
+  state_->diagnostics = diagnostics;
+  if (diagnostics.error_every == 0) state_->twin.reset();
+}
+const StepDiagnostics& PhysicsWorld::diagnostics() const { return state_->diagnostics; }
+
 void PhysicsWorld::attach(StepObserver* observer) {
   if (observer == nullptr) return;
   state_->observers.push_back(observer);

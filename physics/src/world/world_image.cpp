@@ -41,8 +41,8 @@ class ContactWriter {
     contact_ = out.contacts.data();
     point_ = out.points.data();
   }
-  void add(const Pair& pair, const Contact& from) {
-    contact_->reference = pair.relative_to_b ? pair.body_b : pair.body_a;
+  void add(std::uint32_t seen_from, const Contact& from) {
+    contact_->reference = seen_from;
     contact_->point_count = static_cast<std::uint32_t>(from.manifold.count);
     contact_->normal = from.manifold.normal;
     ++contact_;
@@ -53,7 +53,8 @@ class ContactWriter {
   }
   void add_all(const Pair& pair, const std::vector<Contact>& store) {
     if (pair.contact_count == 0 || !pair.was_touching) return;
-    for (const Contact& contact : contacts_of(pair, store)) add(pair, contact);
+    const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
+    for (const Contact& contact : contacts_of(pair, store)) add(seen_from, contact);
   }
   void close() {
     out_.contacts.resize(static_cast<std::size_t>(contact_ - out_.contacts.data()));
@@ -68,11 +69,9 @@ class ContactWriter {
 
 void copy_contacts(const WorldState& world, ImageColumns& out) {
   ContactWriter writer(world, out);
-  if (world.pairs.changes() == world.contacts_fit) {  // the few that touch name their pairs
-    for (const Contact& contact : world.contacts) {
-      const Pair& pair = world.pairs[contact.pair];
-      if (pair.was_touching) writer.add(pair, contact);
-    }
+  if (world.pairs.changes() == world.contacts_fit) {  // no look at the pairs
+    for (const Contact& contact : world.contacts)
+      if (contact.seen_from != kNone) writer.add(contact.seen_from, contact);
   } else {
     for (const Pair& pair : world.pairs) writer.add_all(pair, world.contacts);
   }

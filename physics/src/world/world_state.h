@@ -15,6 +15,7 @@
 #include "world/collider_store.h"
 #include "world/contact_data.h"
 #include "world/joint_store.h"
+#include "world/ledger.h"
 #include "world/pair_store.h"
 #include "world/world_image.h"
 
@@ -79,6 +80,7 @@ struct PairFindings {
   bool gone = false;                   // the bounds are apart, or all sleeps
   bool overlaps = false;               // sensors: whether they see the other
   Passage passage = Passage::Apart;
+  SeparatingFace apart;
 };
 
 // One colour: rows among which no two share a dynamic body.
@@ -94,7 +96,7 @@ struct WorldState {
   std::vector<WorldAabb> reach;  // per collider slot: all its places in the next step
   PairStore pairs;
   std::vector<Contact> contacts;   // of the awake pairs, in their order
-  std::uint64_t contacts_fit = 0;  // pairs.changes() for which Contact::pair holds
+  std::uint64_t contacts_fit = 0;  // pairs.changes() for which Contact::seen_from holds
   JointStore joints;
   ContactData contact_data;
   std::vector<SensorOverlap> overlaps;  // after the last step, ascending
@@ -103,6 +105,7 @@ struct WorldState {
   SceneCounts counts;
   JobSystem* jobs = nullptr;
   std::vector<StepObserver*> observers;
+  StepDiagnostics diagnostics;
   std::vector<InputRecord> inputs;  // since the last step; kept only while somebody observes
   bool stepping = false;
   bool replaying_input = false;
@@ -140,6 +143,9 @@ struct WorldState {
 
   // Events are gathered from the end of one step to the end of the next, then published together.
   EventLists gathering, published;
+  LedgerBook ledger;
+  std::unique_ptr<PhysicsWorld> twin;  // for the error estimate; with the image it is made from
+  Snapshot twin_image;
   mutable FactsCache facts;  // for images
   std::vector<OverlapChange> overlap_changes;
   std::vector<SensorOverlap> new_overlaps;
@@ -182,6 +188,11 @@ unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row);
 void run_substeps(WorldState& world);
 void stop_fast_bodies(WorldState& world);
 void finalize_bodies(WorldState& world);
+
+// --- error estimate (world/error_estimate.cpp) ---
+bool wants_estimate(const WorldState& world);  // of the coming step
+void step_twin(WorldState& world, const PhysicsWorld& original, double dt);
+void compare_with_twin(WorldState& world, const PhysicsWorld& original);
 
 // --- events (world/contact_events.cpp) ---
 void note_pair_end(WorldState& world, const Pair& pair);  // nothing if it did not touch

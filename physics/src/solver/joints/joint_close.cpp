@@ -1,11 +1,12 @@
 // What has come apart is closed in positions alone: velocities, and with them energy, have no part
-// in it [Cline, Pai 2003]. Only where an error is larger than kClosed: the solving pass has aimed
+// in it [Cline 2003]. Only where an error is larger than kClosed: the solving pass has aimed
 // at none.
 //
 // The step dx = M^-1 J^T l, (J M^-1 J^T + C) l = -error, is right to first order in how far it
 // turns bodies. A chain drawn straight can close only sideways, and there a small error asks for a
-// long way; a step goes no farther than where what it leaves out, size turn^2 / 2, reaches the part
-// kLeftOut of the error.
+// long way, again and again while a load draws it open. Two things keep such ways short: C damps
+// what moves much for little [Levenberg 1944], and a step goes no farther than where what it leaves
+// out, size turn^2 / 2, reaches the part kLeftOut of the error.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -20,11 +21,6 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// [-] Measured on a taut bridge of ten planks with a ball on it, 1 to 16 substeps, three
-// precisions: with 0.25 and more some of these runs come apart, with 0.05 none opens by more than
-// 0.3 mm.
-constexpr Real kLeftOut = Real(0.05);
-
 // [m] or [rad] by which an error of row k is measured, and what may be closed in one substep.
 Real size_of(const JointBlock& block, int k) {
   return is_linear(block.row[k].coordinate) ? block.size : Real(1);
@@ -32,6 +28,19 @@ Real size_of(const JointBlock& block, int k) {
 Real most_of(const JointBlock& block, int k, Real h) {
   return h * (is_linear(block.row[k].coordinate) ? joint_tolerance::kPushSizesPerSecond * block.size
                                                  : joint_tolerance::kPushTurn);
+}
+
+// What a row can move without levers: a long lever makes much of a body turn easily, which is no
+// reason to let a joint gape. [1/kg], or [1/(kg m^2)] where it only turns.
+double mobility(const JointBlock& block, int k) {
+  Real linear = 0, angular = 0;
+  for (int i = 0; i < block.bodies; ++i) {
+    if (!block.moves[i]) continue;
+    const BodyJacobian& J = block.J[k * block.bodies + i];
+    linear += dot(J.linear, multiply_each(block.inverse_mass[i], J.linear));
+    angular += dot(J.angular, block.inverse_inertia[i] * J.angular);
+  }
+  return static_cast<double>(linear > Real(0) ? linear : angular);
 }
 
 // Calls task(body, path [m], turn [rad]) for what a block has its bodies do: M^-1 J^T l.
@@ -64,7 +73,7 @@ Real share_of_step(const WorldState& world, const JointPiece& piece, Real error)
   Real square = 0;
   for_bodies(scratch, piece,
              [&](std::uint32_t i) { square = std::max(square, length_squared(turn[i])); });
-  const Real allowed = Real(2) * kLeftOut * error;  // [rad^2]
+  const Real allowed = Real(2) * joint_tolerance::kLeftOut * error;  // [rad^2]
   return square > allowed ? std::sqrt(allowed / square) : Real(1);
 }
 
@@ -152,6 +161,7 @@ void close_joints_of(WorldState& world, const JointPiece& piece) {
       largest = std::max(largest, relative);
       const Real most = most_of(block, k, piece.h);
       rows[k].acts = true;
+      rows[k].give = joint_tolerance::kClosingDamping * mobility(block, k);
       rows[k].value =
           -static_cast<double>(std::min(std::max(block.correction * error, -most), most));
     }

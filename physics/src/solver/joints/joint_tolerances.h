@@ -35,6 +35,14 @@ inline constexpr Real kPushTurn = Real(8);
 // once [-]. All others take away all of it.
 inline constexpr Real kSharedCorrection = Real(0.2);
 
+// How joints close (joint_close.cpp): damping, relative to what a row can move without levers, and
+// the part of the error that a step may leave out [-]. Measured in single precision on level
+// bridges of 3 to 100 planks of 38 kg with a ball of 113 kg to 11 t on them and 1 to 16 substeps:
+// with both no run gains energy. Without the damping bridges of 40 planks come apart, without the
+// bound one of 100 does. Ten times the damping holds as well and lets gaps be a fifth wider.
+inline constexpr double kClosingDamping = 1e-2;
+inline constexpr Real kLeftOut = Real(0.05);
+
 // Newton's steps end when every held coordinate will be right to this [-], in body sizes or
 // radians; when a step leaves more than kSlowStep of the error it is the last.
 inline constexpr Real kClosed = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-9);

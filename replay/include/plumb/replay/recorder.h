@@ -33,7 +33,7 @@ struct RecorderOptions {
   std::string name = {};                 // shown by the viewer; empty: the path
   std::string scene = {};                // the scene as its file's text (JSON); kept as it is
 
-  int snapshot_every = 60;        // [steps] >= 1 between exact snapshots
+  int snapshot_every = 120;       // [steps] >= 1 between exact snapshots: two seconds at 60 Hz
   int rows_per_chunk = 30;        // [steps] >= 1 kept back and written as one piece
   double frames_per_second = 60;  // [1/s] > 0, the viewer's playback
 

@@ -1,0 +1,177 @@
+#include "accuracy/grid.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace plumb::accuracy {
+namespace {
+
+const std::vector<double>& rates(const CaseInfo& info, bool quick) {  // [Hz]
+  static const std::vector<double> few{15, 30, 60, 120, 240}, all{15, 30, 60, 120, 240, 480, 1000},
+      published{60, 100, 240, 1000}, published_few{60};
+  if (info.family == Family::Published) return quick ? published_few : published;
+  return quick ? few : all;
+}
+
+std::vector<Precision> precisions() {
+  std::vector<Precision> list;
+  for (const Precision p : {Precision::F64, Precision::F32, Precision::F32D})
+    if (cells_of(p) != nullptr) list.push_back(p);
+  return list;
+}
+
+Series step_series(std::string label, const CaseInfo& info, bool quick, Knobs knobs) {
+  Series series{std::move(label), {}, true};
+  for (const double rate : rates(info, quick)) {
+    knobs.dt = 1 / rate;
+    series.settings.push_back(knobs);
+  }
+  return series;
+}
+
+std::string label_of(Precision p) { return kPrecisionNames[static_cast<int>(p)]; }
+
+std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
+  std::vector<Series> out;
+  Knobs base;
+  const std::vector<Precision> types = precisions();
+  base.precision = types.front();
+  for (const Precision p : types) {
+    if (quick && p == Precision::F32D) continue;
+    Knobs knobs = base;
+    knobs.precision = p;
+    const std::string what = info.turns ? "dt, Exact, " : "dt, ";
+    out.push_back(step_series(what + label_of(p), info, quick, knobs));
+  }
+  if (info.turns) {
+    for (int method = 1; method < static_cast<int>(rotation_names().size()); ++method) {
+      Knobs knobs = base;
+      knobs.rotation = method;
+      out.push_back(step_series("dt, " + rotation_names()[static_cast<std::size_t>(method)], info,
+                                quick, knobs));
+    }
+  }
+  if (info.flies_fast) {
+    Knobs knobs = base;
+    knobs.continuous = true;
+    out.push_back(step_series("dt, continuous", info, quick, knobs));
+  }
+  if (info.family == Family::Free || (quick && info.family == Family::Published)) return out;
+  if (info.touches && !quick) {
+    Knobs knobs = base;
+    knobs.warm_start = false;
+    out.push_back(step_series("dt, no warm start", info, quick, knobs));
+  }
+  Series substeps{"substeps at 1/60, " + label_of(base.precision), {}, false};
+  const std::vector<int> counts =
+      quick ? std::vector<int>{1, 4, 16} : std::vector<int>{1, 2, 4, 8, 16, 32, 64};
+  for (const int n : counts) {
+    if (n > 8 && info.family == Family::Published) continue;
+    Knobs knobs = base;
+    knobs.substeps = n;
+    substeps.settings.push_back(knobs);
+  }
+  out.push_back(std::move(substeps));
+  return out;
+}
+
+template <class T>
+std::vector<T> or_default(const std::vector<T>& given, T standard) {
+  return given.empty() ? std::vector<T>{standard} : given;
+}
+
+std::vector<Series> users_choice(const KnobChoice& choice) {
+  const Knobs standard;
+  std::vector<Series> out;
+  for (const Precision p : or_default(choice.precision, precisions().front()))
+    for (const int rotation : or_default(choice.rotation, standard.rotation))
+      for (const int substeps : or_default(choice.substeps, standard.substeps))
+        for (const bool warm : or_default(choice.warm_start, standard.warm_start))
+          for (const bool continuous : or_default(choice.continuous, standard.continuous)) {
+            Series series;
+            series.label = label_of(p) + ", " +
+                           rotation_names()[static_cast<std::size_t>(rotation)] + ", " +
+                           std::to_string(substeps) + " substeps" +
+                           (warm ? "" : ", no warm start") + (continuous ? ", continuous" : "");
+            for (const double dt : or_default(choice.dt, standard.dt))
+              series.settings.push_back({dt, substeps, rotation, p, warm, continuous});
+            out.push_back(std::move(series));
+          }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Series> series_of(const CaseInfo& info, const KnobChoice& choice) {
+  return choice.empty() ? own_choice(info, choice.quick) : users_choice(choice);
+}
+
+std::size_t cell_count(const std::vector<Series>& series) {
+  std::size_t count = 0;
+  for (const Series& s : series) count += s.settings.size();
+  return count;
+}
+
+std::string step_words(double dt) {
+  char text[32];
+  const double rate = 1 / dt;
+  if (std::abs(rate - std::round(rate)) < 1e-6 * rate && rate >= 1) {
+    std::snprintf(text, sizeof text, "1/%.0f", rate);
+  } else {
+    std::snprintf(text, sizeof text, "%g", dt);
+  }
+  return text;
+}
+
+std::string words_of(const Knobs& knobs) {
+  return "dt " + step_words(knobs.dt) + " s, " + std::to_string(knobs.substeps) + " substeps, " +
+         label_of(knobs.precision) + ", " +
+         rotation_names()[static_cast<std::size_t>(knobs.rotation)] +
+         (knobs.warm_start ? "" : ", no warm start") + (knobs.continuous ? ", continuous" : "");
+}
+
+namespace {
+
+// The number at the start of a text; what follows it in `rest`.
+bool parse_number(const std::string& text, double& value, std::string& rest) {
+  if (text.empty()) return false;
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || !std::isfinite(value)) return false;
+  rest = end;
+  return true;
+}
+
+}  // namespace
+
+bool parse_step(const std::string& text, double& dt) {
+  std::string rest;
+  if (!parse_number(text, dt, rest)) return false;
+  if (!rest.empty()) {
+    double divisor = 0;
+    std::string more;
+    if (rest[0] != '/' || !parse_number(rest.substr(1), divisor, more) || !more.empty())
+      return false;
+    dt /= divisor;
+  }
+  constexpr double kShortest = 1e-5, kLongest = 0.5;  // [s]
+  return dt >= kShortest && dt <= kLongest;
+}
+
+bool parse_duration(const std::string& text, double& seconds) {
+  std::string unit;
+  if (!parse_number(text, seconds, unit)) return false;
+  if (unit == "ns") {
+    seconds *= 1e-9;
+  } else if (unit == "us") {
+    seconds *= 1e-6;
+  } else if (unit == "ms") {
+    seconds *= 1e-3;
+  } else if (!unit.empty() && unit != "s") {
+    return false;
+  }
+  return seconds > 0;
+}
+
+}  // namespace plumb::accuracy
