@@ -149,7 +149,7 @@ TEST(NewtonJoints, HingesWithMotorsAndLimitsCarryWhatTouchesThem) {
 }
 
 // A chain over a pole with a ton at either end. Measured in double: it opens by 16 mm, 5 % of a
-// link, and gains 2.8 % of what its weights could fall by (wanted, and held by the fast solver: 1 %
+// link, (9 % in single precision) and gains 2.8 % of what its weights could fall by (wanted, and held by the fast solver: 1 %
 // both).
 TEST(NewtonJoints, ALoadedChainOverAPoleStaysTogether) {
   PhysicsWorld world(newton());
@@ -188,7 +188,7 @@ TEST(NewtonJoints, ALoadedChainOverAPoleStaysTogether) {
     rise = std::max(rise, world.energy().total() - start);
   });
   ASSERT_TRUE(all_finite(world));
-  EXPECT_LE(gap, 0.06 * 0.3);
+  EXPECT_LE(gap, bar(0.06, 0.1) * 0.3);
   EXPECT_LE(rise, 0.03 * 2000 * kGravity * 0.5);
 }
 
