@@ -39,4 +39,9 @@ const std::vector<std::string>& rotation_names() {
   return names;
 }
 
+const std::vector<std::string>& solver_names() {
+  static const std::vector<std::string> names{"SoftStep", "Newton", "Auto"};
+  return names;
+}
+
 }  // namespace plumb::accuracy

@@ -19,6 +19,7 @@ struct Knobs {
   double dt = 1.0 / 60;  // [s] > 0
   int substeps = 4;      // [-] 1..64
   int rotation = 0;      // a RotationMethod by its number
+  int solver = 0;        // a ContactSolver by its number
   Precision precision = Precision::F64;
   bool warm_start = true;
   bool continuous = false;  // RigidBody::continuous of what moves fast
@@ -60,5 +61,7 @@ const CellCode* cells_of(Precision precision);
 
 // How methods are called on the command line and in reports, in the order of RotationMethod.
 const std::vector<std::string>& rotation_names();
+const std::vector<std::string>& solver_names();  // likewise of ContactSolver
+const std::vector<std::string>& solver_names();  // likewise of ContactSolver
 
 }  // namespace plumb::accuracy

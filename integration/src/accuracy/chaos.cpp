@@ -14,8 +14,11 @@ constexpr double kNineFive = 1.96;  // half the 95 % interval of a normal distri
 
 double largest_distance(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0;
-  for (std::size_t i = 0; i + 2 < a.size() && i + 2 < b.size(); i += 3)
-    largest = std::max(largest, std::hypot(a[i] - b[i], a[i + 1] - b[i + 1], a[i + 2] - b[i + 2]));
+  for (std::size_t i = 0; i + 2 < a.size() && i + 2 < b.size(); i += 3) {
+    const double d = std::hypot(a[i] - b[i], a[i + 1] - b[i + 1], a[i + 2] - b[i + 2]);
+    if (std::isnan(d)) return d;
+    largest = std::max(largest, d);
+  }
   return largest;
 }
 

@@ -30,6 +30,8 @@ Series step_series(std::string label, const CaseInfo& info, bool quick, Knobs kn
   return series;
 }
 
+constexpr int kNewton = 1;  // in solver_names()
+
 std::string label_of(Precision p) { return kPrecisionNames[static_cast<int>(p)]; }
 
 std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
@@ -58,6 +60,11 @@ std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
     out.push_back(step_series("dt, continuous", info, quick, knobs));
   }
   if (info.family == Family::Free || (quick && info.family == Family::Published)) return out;
+  if (info.touches) {
+    Knobs knobs = base;
+    knobs.solver = kNewton;
+    out.push_back(step_series("dt, Newton, " + label_of(base.precision), info, quick, knobs));
+  }
   if (info.touches && !quick) {
     Knobs knobs = base;
     knobs.warm_start = false;
@@ -86,18 +93,20 @@ std::vector<Series> users_choice(const KnobChoice& choice) {
   std::vector<Series> out;
   for (const Precision p : or_default(choice.precision, precisions().front()))
     for (const int rotation : or_default(choice.rotation, standard.rotation))
-      for (const int substeps : or_default(choice.substeps, standard.substeps))
-        for (const bool warm : or_default(choice.warm_start, standard.warm_start))
-          for (const bool continuous : or_default(choice.continuous, standard.continuous)) {
-            Series series;
-            series.label = label_of(p) + ", " +
-                           rotation_names()[static_cast<std::size_t>(rotation)] + ", " +
-                           std::to_string(substeps) + " substeps" +
-                           (warm ? "" : ", no warm start") + (continuous ? ", continuous" : "");
-            for (const double dt : or_default(choice.dt, standard.dt))
-              series.settings.push_back({dt, substeps, rotation, p, warm, continuous});
-            out.push_back(std::move(series));
-          }
+      for (const int solver : or_default(choice.solver, standard.solver))
+        for (const int substeps : or_default(choice.substeps, standard.substeps))
+          for (const bool warm : or_default(choice.warm_start, standard.warm_start))
+            for (const bool continuous : or_default(choice.continuous, standard.continuous)) {
+              Series series;
+              series.label =
+                  label_of(p) + ", " + rotation_names()[static_cast<std::size_t>(rotation)] + ", " +
+                  std::to_string(substeps) + " substeps" +
+                  (solver == 0 ? "" : ", " + solver_names()[static_cast<std::size_t>(solver)]) +
+                  (warm ? "" : ", no warm start") + (continuous ? ", continuous" : "");
+              for (const double dt : or_default(choice.dt, standard.dt))
+                series.settings.push_back({dt, substeps, rotation, solver, p, warm, continuous});
+              out.push_back(std::move(series));
+            }
   return out;
 }
 
@@ -128,6 +137,7 @@ std::string words_of(const Knobs& knobs) {
   return "dt " + step_words(knobs.dt) + " s, " + std::to_string(knobs.substeps) + " substeps, " +
          label_of(knobs.precision) + ", " +
          rotation_names()[static_cast<std::size_t>(knobs.rotation)] +
+         (knobs.solver == 0 ? "" : ", " + solver_names()[static_cast<std::size_t>(knobs.solver)]) +
          (knobs.warm_start ? "" : ", no warm start") + (knobs.continuous ? ", continuous" : "");
 }
 

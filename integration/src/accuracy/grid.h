@@ -21,14 +21,15 @@ struct KnobChoice {
   std::vector<double> dt;  // [s]
   std::vector<int> substeps;
   std::vector<int> rotation;
+  std::vector<int> solver;
   std::vector<Precision> precision;
   std::vector<bool> warm_start;
   std::vector<bool> continuous;
   bool quick = false;
 
   [[nodiscard]] bool empty() const {
-    return dt.empty() && substeps.empty() && rotation.empty() && precision.empty() &&
-           warm_start.empty() && continuous.empty();
+    return dt.empty() && substeps.empty() && rotation.empty() && solver.empty() &&
+           precision.empty() && warm_start.empty() && continuous.empty();
   }
 };
 

@@ -269,6 +269,7 @@ void run_substeps(WorldState& world) {
     for_awake_bodies(world, [&](std::uint32_t i) { drift(world, i); });
     if (ledger) charge_drift(world);
     if (newton) settle_newton_islands(world);
+    if (newton && ledger) charge(world, &EnergyLedger::normal);
     if (joints) relax_joints(world);
     if (ledger) charge(world, &EnergyLedger::joints);
     for (int pass = 0; pass < relax_passes; ++pass)

@@ -13,6 +13,7 @@ WorldSettings Making::settings() const {
   WorldSettings s;
   s.substeps = knobs.substeps;
   s.rotation = static_cast<RotationMethod>(knobs.rotation);
+  s.contact_solver = static_cast<ContactSolver>(knobs.solver);
   s.warm_starting = knobs.warm_start;
   s.sleeping = false;
   return s;

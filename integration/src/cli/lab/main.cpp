@@ -23,7 +23,7 @@ using namespace accuracy;
 
 struct AccuracyOptions {
   std::vector<std::string> cases;
-  std::vector<std::string> dt, substeps, rotation, precision, warm_start, continuous;
+  std::vector<std::string> dt, substeps, rotation, solver, precision, warm_start, continuous;
   std::string output, error, budget, table;
   bool list = false, quick = false, no_charts = false, quiet = false;
 };
@@ -99,6 +99,7 @@ std::string read_knobs(const AccuracyOptions& options, KnobChoice& knobs) {
     knobs.substeps.push_back(static_cast<int>(found - counts.begin()) + 1);
   }
   std::string wrong = choose("--rotation", options.rotation, rotation_names(), knobs.rotation);
+  if (wrong.empty()) wrong = choose("--solver", options.solver, solver_names(), knobs.solver);
   std::vector<int> chosen;
   if (wrong.empty())
     wrong = choose("--precision", options.precision,
@@ -301,6 +302,7 @@ void add_options(CLI::App& app, AccuracyOptions& options) {
   list("--dt", options.dt, "Steps to run instead of the lab's own, such as 1/60,1/120");
   list("--substeps", options.substeps, "Likewise, 1 to 64");
   list("--rotation", options.rotation, "Likewise, rotation methods, such as Exact,RK4");
+  list("--solver", options.solver, "Likewise, contact solvers: SoftStep, Newton, Auto");
   list("--precision", options.precision, "Likewise: f32, f32d, f64");
   list("--warm-start", options.warm_start, "Likewise: on, off");
   list("--ccd", options.continuous, "Likewise, continuous collision of what flies fast: on, off");
