@@ -62,7 +62,7 @@ std::vector<Price> all_effects() {
           {"thrust", thrust},
           {"explosion (updraft)", blast},
           {"drag linear", linear},
-          {"drag, quadratic", quadratic},
+          {"drag quadratic", quadratic},
           {"drag angular", turning},
           {"magnus", magnus},
           {"attractor", pull},
