@@ -4,6 +4,7 @@
 
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/scene.h"
+#include "scene/effects.h"
 #include "scene/place_joint.h"
 #include "scene/prepared_mesh.h"
 #include "scene/repeat.h"
@@ -27,6 +28,8 @@ class Undo {
   Undo& operator=(const Undo&) = delete;
   ~Undo() {
     if (done_) return;
+    for (auto effect = effects_.rbegin(); effect != effects_.rend(); ++effect)
+      (void)world_.destroy_effect(*effect);
     for (auto body = bodies_.rbegin(); body != bodies_.rend(); ++body)
       (void)world_.destroy_body(*body);
     for (auto pair = pairs_.rbegin(); pair != pairs_.rend(); ++pair)
@@ -34,6 +37,7 @@ class Undo {
     (void)world_.set_settings(settings_);
   }
   void created(BodyId body) { bodies_.push_back(body); }
+  void created(EffectId effect) { effects_.push_back(effect); }
   void changes_pair(std::uint32_t kind_a, std::uint32_t kind_b) {
     pairs_.push_back({kind_a, kind_b, world_.material_pair(kind_a, kind_b)});
   }
@@ -43,6 +47,7 @@ class Undo {
   PhysicsWorld& world_;
   WorldSettings settings_;
   std::vector<BodyId> bodies_;
+  std::vector<EffectId> effects_;
   struct Entry {
     std::uint32_t kind_a, kind_b;
     std::optional<MaterialPair> values;
@@ -189,6 +194,13 @@ JointId SceneInstance::find_joint(std::string_view name) const {
   return found == joints.end() ? JointId{} : found->id;
 }
 
+EffectId SceneInstance::find_effect(std::string_view name) const {
+  const auto found =
+      std::find_if(effects.begin(), effects.end(),
+                   [&](const SceneInstanceEffect& effect) { return effect.name == name; });
+  return found == effects.end() ? EffectId{} : found->id;
+}
+
 Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
   Undo undo(world);
   if (const Status status = world.set_settings(scene.settings); !status.ok()) {
@@ -228,6 +240,15 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
   for (const SceneExclusion& pair : scene.excluded_pairs) {
     const std::string error = exclude_pair(pair, instance, world);
     if (!error.empty()) return Error{place_of(scene, pair.line) + ": " + error};
+  }
+  for (const SceneEffect& effect : scene.effects) {
+    const Created<EffectId> created =
+        world.create_effect(scene::place_effect(effect, world, instance));
+    if (!created.ok())
+      return Error{place_of(scene, effect.line) + ": effect '" + effect.name +
+                   "': " + created.status.message};
+    undo.created(created.id);
+    instance.effects.push_back({effect.name, created.id});
   }
   meshes.move_into(instance);
   undo.keep();

@@ -7,17 +7,16 @@
 #include <string_view>
 
 #include "plumb/precision.h"
+#include "scene/effect_keys.h"
 
 namespace plumb::inline PLUMB_ABI::assets::scene {
-
-using Keys = std::span<const std::string_view>;
 
 namespace keys {
 
 inline constexpr std::string_view kScene[] = {
     "$schema",  "plumb_scene", "name",           "description", "step",
     "settings", "materials",   "material_pairs", "meshes",      "heightfields",
-    "bodies",   "joints",      "excluded_pairs"};
+    "bodies",   "joints",      "excluded_pairs", "effects"};
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
 inline constexpr std::string_view kSettings[] = {
     "gravity",        "substeps",      "contact_frequency", "contact_damping_ratio", "rotation",
@@ -124,7 +123,7 @@ struct Named {
   std::string_view name;
   Keys keys;
 };
-inline constexpr std::array<Named, 25> kAll{{{"scene", kScene},
+inline constexpr std::array<Named, 35> kAll{{{"scene", kScene},
                                              {"step", kStep},
                                              {"settings", kSettings},
                                              {"material", kMaterial},
@@ -148,7 +147,17 @@ inline constexpr std::array<Named, 25> kAll{{{"scene", kScene},
                                              {"joint_motor", kJointMotor},
                                              {"joint_spring", kJointSpring},
                                              {"joint_coordinates", kCoordinates},
-                                             {"joint_axis", kJointAxis}}};
+                                             {"joint_axis", kJointAxis},
+                                             {"effect_point_gravity", kPointGravity},
+                                             {"effect_thrust", kThrust},
+                                             {"effect_explosion", kExplosion},
+                                             {"effect_drag", kDrag},
+                                             {"effect_magnus", kMagnus},
+                                             {"effect_attractor", kAttractor},
+                                             {"effect_wind", kWind},
+                                             {"effect_aero_surface", kAeroSurface},
+                                             {"effect_buoyancy", kBuoyancy},
+                                             {"effect_spring", kSpring}}};
 
 }  // namespace keys
 

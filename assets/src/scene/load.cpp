@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "plumb/assets/scene.h"
+#include "scene/effects.h"
 #include "scene/json_tree.h"
 #include "scene/keys.h"
 #include "scene/object_reader.h"
@@ -114,6 +115,8 @@ void read_scene(const JsonNode& root, Scene& scene, Problems& problems) {
     JointsReader(scene, problems).read(*joints, scene.joints);
   if (const JsonNode* pairs = list_of(in, "excluded_pairs", JsonNode::Kind::Array))
     read_excluded_pairs(*pairs, scene, problems);
+  if (const JsonNode* effects = list_of(in, "effects", JsonNode::Kind::Array))
+    read_effects(*effects, scene, problems);
 }
 
 // Where a file is that the scene names, from the working directory; it is missed on request.

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "plumb/assets/scene.h"
+#include "scene/effects.h"
 #include "scene/json_words.h"
 #include "scene/keys.h"
 #include "scene/write_joint.h"
@@ -282,6 +283,9 @@ std::string scene_to_json(const Scene& scene) {
   out["excluded_pairs"] = Json::array();
   for (const SceneExclusion& pair : scene.excluded_pairs)
     out["excluded_pairs"].push_back(json_of(pair));
+  out["effects"] = Json::array();
+  for (const SceneEffect& effect : scene.effects)
+    out["effects"].push_back(scene::json_of_effect(effect));
   return out.dump(kIndent) + "\n";
 }
 

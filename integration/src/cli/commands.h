@@ -40,6 +40,8 @@ struct MeshOptions {
 };
 int inspect_mesh(const MeshOptions& options);
 
+// The price list of effects; also as a table for programs, if `csv` names a file.
+int print_effect_prices(const std::string& csv);
 int print_plan(const std::string& scene);
 
 int replay_info(const std::string& recording);

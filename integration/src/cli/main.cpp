@@ -111,6 +111,10 @@ int program(int argc, char** argv) {
   CLI::App* plan = app.add_subcommand("plan", "Which effects and stages a scene pays for, and why");
   plan->add_option("SCENE", plan_scene, "Scene file (JSON)")->required();
   plan->callback([&] { exit_code = print_plan(plan_scene); });
+  std::string prices_csv;
+  CLI::App* effects = app.add_subcommand("effects", "What each effect costs on this machine");
+  effects->add_option("--csv", prices_csv, "Write the list to this file too");
+  effects->callback([&] { exit_code = print_effect_prices(prices_csv); });
   add_replay(app, replay, exit_code);
   std::vector<std::string> lab_arguments;
   add_accuracy(app, lab_arguments, exit_code);

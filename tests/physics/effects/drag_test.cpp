@@ -100,7 +100,8 @@ TEST(Drag, CarriesAlongWithItsMedium) {
   river.medium = vec(3, 0, 0);
   must(world.create_effect({leaf, river, 0}));
   run(world, 20);
-  EXPECT_NEAR((velocity(world, leaf) - Vector3d(3, 0, 0)).norm(), 0, bar(1e-9, 1e-5));
+  EXPECT_NEAR((velocity(world, leaf) - Vector3d(3, 0, 0)).norm(), 0,
+              bar(1e-9, 1e-4));  // float: 1 - decay has lost c h
 }
 
 // Equal moments: w decays as exp(-b t / I), exactly. Unequal ones: never faster than at the start.

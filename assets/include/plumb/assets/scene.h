@@ -153,6 +153,16 @@ struct SceneExclusion {
   int line = 0;
 };
 
+// A body effect (plumb/effects.h).
+struct SceneEffect {
+  std::string name;
+  std::string body;               // name, of a copy "name[3]"; empty: every dynamic body
+  std::string other;              // of a spring; empty: the world
+  Effect effect;                  // without bodies, which are given by name
+  bool length_as_placed = false;  // rest length of a spring: whether it is as the scene begins
+  int line = 0;
+};
+
 struct Scene {
   std::string source;  // the file, for error texts
   std::string name;
@@ -166,6 +176,7 @@ struct Scene {
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
   std::vector<SceneExclusion> excluded_pairs;
+  std::vector<SceneEffect> effects;
 
   [[nodiscard]] std::size_t body_count() const;  // with all copies
   // Null if there is none of that name.
@@ -210,11 +221,17 @@ struct SceneInstanceJoint {
   JointId id;
 };
 
+struct SceneInstanceEffect {
+  std::string name;
+  EffectId id;
+};
+
 struct SceneInstance {
   std::vector<SceneInstanceBody>
       bodies;  // in the order of the file; user_data of a body is its index
-  std::vector<SceneInstanceJoint> joints;  // the same for joints
-  std::vector<SceneInstanceMesh> meshes;   // those that bodies use
+  std::vector<SceneInstanceJoint> joints;    // the same for joints
+  std::vector<SceneInstanceEffect> effects;  // the same for effects
+  std::vector<SceneInstanceMesh> meshes;     // those that bodies use
   // Worth knowing: concave meshes that collide as their hull, surfaces with open seams, parts that
   // miss the distance asked for.
   std::vector<std::string> notes;
@@ -223,6 +240,7 @@ struct SceneInstance {
   // Null if there is no such name.
   [[nodiscard]] BodyId find(std::string_view name) const;
   [[nodiscard]] JointId find_joint(std::string_view name) const;
+  [[nodiscard]] EffectId find_effect(std::string_view name) const;
 };
 
 // Builds the scene in the world and gives the world its settings. On an error the world is left
