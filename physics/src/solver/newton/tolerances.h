@@ -48,7 +48,7 @@ inline constexpr double kPush = 0.2;
 // weights of the lighter body [-]; loaded overlap of so many slops [-]; steps for which the two
 // must have touched for that [-]; steps for which a body that has called stays [-]; islands with
 // more bodies stay with the fast solver [-].
-inline constexpr Real kLightest = Real(4);
+inline constexpr Real kLightest = Real(10);
 inline constexpr Real kMostLoad = Real(12.5);
 inline constexpr Real kMostOverlap = Real(10);
 inline constexpr unsigned kStepsToBeLoad = 8;
