@@ -35,7 +35,7 @@ struct ErrorEstimate {
 // kinetic_change to round-off.
 struct EnergyLedger {
   double gravity = 0;      // -change of the potential energy
-  double forces = 0;       // forces and torques of the user
+  double forces = 0;       // forces and torques of the user, and of effects
   double damping = 0;      // <= 0
   double normal = 0;       // normal impulses of contacts, without bounces
   double friction = 0;     // with rolling and torsional friction

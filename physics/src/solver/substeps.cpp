@@ -228,6 +228,7 @@ void run_substeps(WorldState& world) {
   if (ledger) charge_flight(world);
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (effects) act_effects(world);
+    if (effects && ledger) charge_effects(world);
     if (!world.spinning_rows.empty()) carry_drives(world);
     if (!world.bouncing_rows.empty()) run_impacts(world);
     if (ledger) charge_bounces(world);

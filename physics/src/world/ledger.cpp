@@ -1,3 +1,4 @@
+#include "math/eigen_bridge.h"
 #include "solver/body_substep.h"
 #include "world/ledger_charges.h"
 
@@ -37,8 +38,9 @@ Sum momentum_of(const WorldState& world, std::uint32_t i) {
 
 // [m/s^2] of gravity alone, with the body's own scale and locks.
 Sum gravity_on(const WorldState& world, std::uint32_t i) {
-  return wide(world.substep[i].acceleration -
-              multiply_each(world.bodies.mass[i].inverse_mass, world.bodies.force[i].force));
+  const BodyMass& m = world.bodies.mass[i];
+  const Vec free = m.mass * m.inverse_mass;  // 1, or 0 along a locked axis
+  return wide(m.gravity_scale * multiply_each(free, to_inner(world.settings.gravity)));
 }
 Sum force_on(const WorldState& world, std::uint32_t i) {  // [N] in the axes that are free
   const BodyMass& m = world.bodies.mass[i];
@@ -75,7 +77,7 @@ template <class Flies>
 void split_flight(WorldState& world, double time, Totals& change, Flies&& flies) {
   LedgerBook& book = world.ledger;
   for_dynamic(world, [&](std::uint32_t i) {
-    if (!flies(world.substep[i])) return;
+    if (!flies(i)) return;
     const double mass = static_cast<double>(world.bodies.mass[i].mass);
     const Sum path = wide(world.delta[i].dp - book.place[i]);
     const Sum weight = mass * gravity_on(world, i), force = force_on(world, i);
@@ -137,12 +139,29 @@ void charge_flight(WorldState& world) {
   });
   const Totals now = totals(world);
   Totals change{now.kinetic - book.kinetic, now.linear - book.linear};
-  split_flight(world, static_cast<double>(world.dt), change,
-               [](const SubstepBody& s) { return !s.constrained; });
+  split_flight(world, static_cast<double>(world.dt), change, [&](std::uint32_t i) {
+    const Vec path = world.delta[i].dp - book.place[i];  // others fly with effects
+    return !world.substep[i].constrained && length_squared(path) > Real(0);
+  });
   (damped   ? book.energy.damping
    : turned ? book.energy.forces
             : book.energy.integrator) += change.kinetic;
   add(book.momentum.damping, change.linear);
+  take_change(world);
+}
+
+// Effects fly the bodies that only they hold, a substep at a time; what they do to others comes
+// with the kick. All of it counts as forces.
+void charge_effects(WorldState& world) {
+  LedgerBook& book = world.ledger;
+  const Totals now = totals(world);
+  Totals change{now.kinetic - book.kinetic, now.linear - book.linear};
+  split_flight(world, static_cast<double>(world.h), change, [&](std::uint32_t i) {
+    const Vec path = world.delta[i].dp - book.place[i];
+    return !world.substep[i].constrained && length_squared(path) > Real(0);
+  });
+  book.energy.forces += change.kinetic;
+  add(book.momentum.forces, change.linear);
   take_change(world);
 }
 
@@ -151,7 +170,7 @@ void charge_joint_flight(WorldState& world) {
   const Totals now = totals(world);
   Totals change{now.kinetic - book.kinetic, now.linear - book.linear};
   split_flight(world, static_cast<double>(world.h), change,
-               [](const SubstepBody& s) { return s.split; });
+               [&](std::uint32_t i) { return world.substep[i].split; });
   book.energy.joints += change.kinetic;
   add(book.momentum.joints, change.linear);
   take_change(world);

@@ -13,6 +13,7 @@ namespace plumb::inline PLUMB_ABI::detail {
 void open_ledger(WorldState& world);                          // before the substeps
 void charge(WorldState& world, double EnergyLedger::*entry);  // all that has changed since
 void charge_flight(WorldState& world);                        // bodies that nothing holds
+void charge_effects(WorldState& world);
 void charge_bounces(WorldState& world);
 void charge_kick(WorldState& world);          // gravity, forces, damping
 void charge_joint_flight(WorldState& world);  // groups by themselves

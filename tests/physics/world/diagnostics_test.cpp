@@ -61,6 +61,14 @@ TEST(Ledger, ClosesInAPile) {
   build_pile(world, {.side = 3});
   run_balanced(world, 2);
 }
+// The accurate solver keeps no account of friction: all of its contacts' work is under `normal`.
+TEST(Ledger, ClosesUnderTheAccurateSolver) {
+  WorldSettings settings = no_sleep();
+  settings.contact_solver = ContactSolver::Newton;
+  PhysicsWorld world = ledger_world(settings);
+  build_pile(world, {.side = 3});
+  run_balanced(world, 1);
+}
 TEST(Ledger, ClosesAmongBodiesThatMeetInFlight) {
   WorldSettings settings = no_sleep();
   settings.gravity = Vec3::Zero();
