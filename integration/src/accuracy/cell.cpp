@@ -3,41 +3,25 @@
 
 #include "plumb/settings.h"
 
-#if defined(PLUMB_LAB_F32)
-namespace plumb::f32::cells {
-const accuracy::CellCode& code();
-}
-#endif
-#if defined(PLUMB_LAB_F32D)
-namespace plumb::f32d::cells {
-const accuracy::CellCode& code();
-}
-#endif
-#if defined(PLUMB_LAB_F64)
-namespace plumb::f64::cells {
-const accuracy::CellCode& code();
-}
-#endif
-
 namespace plumb::accuracy {
 
 const CellCode* cells_of(Precision precision) {
   switch (precision) {
     case Precision::F32:
 #if defined(PLUMB_LAB_F32)
-      return &f32::cells::code();
+      return &cells_f32();
 #else
       return nullptr;
 #endif
     case Precision::F32D:
 #if defined(PLUMB_LAB_F32D)
-      return &f32d::cells::code();
+      return &cells_f32d();
 #else
       return nullptr;
 #endif
     case Precision::F64:
 #if defined(PLUMB_LAB_F64)
-      return &f64::cells::code();
+      return &cells_f64();
 #else
       return nullptr;
 #endif

@@ -52,6 +52,9 @@ struct CellCode {
   // else, each of about `window` seconds, by the clock of the one thread that steps.
   double (*time)(std::string_view name, const Knobs& knobs, double window);
 };
+const CellCode& cells_f32();  // where the build has them
+const CellCode& cells_f32d();
+const CellCode& cells_f64();
 // Null where the build does not have this number type.
 const CellCode* cells_of(Precision precision);
 

@@ -112,7 +112,8 @@ ChaosResult run_chaos(const CaseInfo& info, const KnobChoice& choice,
     }
     Trace trace;
     ChaosRow row = measure(info, *code, knobs, result.members, trace);
-    const std::size_t looks = static_cast<std::size_t>(std::lround(row.horizon / kEvery));
+    const double known = std::min(row.horizon, result.reference.horizon);
+    const std::size_t looks = static_cast<std::size_t>(std::lround(known / kEvery));
     for (std::size_t i = 0; i <= looks && i < right.places.size(); ++i)
       row.error = std::max(row.error, largest_distance(trace.places[i], right.places[i]));
     row.cost = code->time(info.name, knobs, choice.quick ? 0.006 : 0.03);

@@ -19,8 +19,8 @@ struct Estimate {
 
 struct ChaosRow {
   Knobs knobs;
-  double horizon = 0;                // [s]
-  double error = 0;                  // [m] largest distance from the reference up to the horizon
+  double horizon = 0;  // [s]
+  double error = 0;    // [m] largest distance from the reference up to the nearer horizon
   std::vector<Estimate> statistics;  // in the order of kStatistics
   double cost = 0;                   // [s] for a body and a simulated second
 };

@@ -54,6 +54,9 @@ enum class InputKind : std::uint32_t {
   SetSensor,
   SetOneWay,
   SetColliderUserData,
+  CreateEffect,
+  SetEffect,
+  DestroyEffect,
 };
 const char* name_of(InputKind kind);
 

@@ -26,6 +26,18 @@ enum class PlanItem : unsigned char {
   SurfaceVelocity,
   OneWay,
   AccurateContacts,  // ContactSolver::Newton for some islands
+  // Effects, in the order of EffectKind (plumb/effects.h).
+  PointGravity,
+  ForceField,
+  Thrust,
+  Explosion,
+  Drag,
+  Magnus,
+  Attractor,
+  Wind,
+  AeroSurface,
+  Buoyancy,
+  Spring,
   Count,
 };
 const char* name_of(PlanItem item);

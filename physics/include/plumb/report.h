@@ -73,8 +73,11 @@ struct EnergyReport {
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  // [kg m/s]
   Eigen::Vector3d angular_momentum =
       Eigen::Vector3d::Zero();  // [kg m^2/s] about the world's origin
+  double effects = 0;           // [J] potential of springs, fields, water (plumb/effects.h)
 
-  [[nodiscard]] double total() const { return kinetic_linear + kinetic_angular + potential; }
+  [[nodiscard]] double total() const {
+    return kinetic_linear + kinetic_angular + potential + effects;
+  }
 };
 
 }  // namespace plumb::inline PLUMB_ABI

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "plumb/collider.h"
+#include "plumb/effects.h"
 #include "plumb/events.h"
 #include "plumb/ids.h"
 #include "plumb/inputs.h"
@@ -113,6 +114,16 @@ class PhysicsWorld {
   Status set_joint_motor(JointId joint, const std::optional<JointMotor>& motor, int axis = 0);
   Status set_joint_limit(JointId joint, const std::optional<JointLimit>& limit, int axis = 0);
 
+  // --- effects (plumb/effects.h) ---------------------------------------------------------------
+  // Each is checked, recorded and part of the state. All wake what they may set in motion; effects
+  // end with their bodies.
+  Created<EffectId> create_effect(const Effect& effect);
+  Status set_effect(EffectId effect, const Effect& changed);  // may name another kind or body
+  Status destroy_effect(EffectId effect);
+  // What ForceField::field stands for; null takes it away. Neither recorded nor saved: whoever
+  // replays or restores registers it again, before.
+  Status set_force_field(std::uint32_t field, ForceFieldFunction function, void* context = nullptr);
+
   // --- contact data ----------------------------------------------------------------------------
   // Sets the belt running, or stops it; wakes the body and what lies on it.
   Status set_surface_velocity(ColliderId collider, const SurfaceVelocity& velocity);
@@ -167,6 +178,12 @@ class PhysicsWorld {
   [[nodiscard]] JointReaction joint_reaction(JointId joint) const;  // of the last step
   [[nodiscard]] std::vector<JointId> joints_of(BodyId body) const;  // by index
   [[nodiscard]] std::size_t joint_count() const;
+  [[nodiscard]] bool is_valid(EffectId effect) const;
+  [[nodiscard]] Effect effect(EffectId effect) const;
+  [[nodiscard]] std::vector<EffectId> effects_of(BodyId body) const;  // by index; not the world's
+  [[nodiscard]] std::size_t effect_count() const;
+  [[nodiscard]] EffectReport effect_report(EffectId effect) const;
+  [[nodiscard]] EffectLedger effect_ledger() const;
   [[nodiscard]] const WorldSettings& settings() const;
   [[nodiscard]] double time() const;  // [s]
   [[nodiscard]] std::uint64_t step_count() const;

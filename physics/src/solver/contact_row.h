@@ -47,6 +47,8 @@ struct SubstepBody {
   bool driven = false;              // it touches a surface that runs
   bool jointed = false;             // some joint holds it
   bool split = false;               // ... and nothing that hangs on it touches anything
+  bool affected = false;            // some effect acts on it
+  bool balanced = false;            // water or springs hold it, with nothing left over
 };
 
 // Spring-like softness of a contact, from a frequency and a damping ratio [Catto 2024]:

@@ -12,6 +12,7 @@
 //                 second order; theta is the share of the substep during which contacts slid
 #include <cmath>
 
+#include "effects/effect_world.h"
 #include "motion/body_motion.h"
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
@@ -176,7 +177,7 @@ void store_impulses(WorldState& world) {
 void fly(WorldState& world, std::uint32_t i) {
   SubstepBody& s = world.substep[i];
   const BodyMass& mass = world.bodies.mass[i];
-  if (s.constrained || !(mass.mass > Real(0))) return;
+  if (s.constrained || s.affected || !(mass.mass > Real(0))) return;
   BodyVelocity& velocity = world.bodies.velocity[i];
   const BodyForce& force = world.bodies.force[i];
   BodyDelta& delta = world.delta[i];
@@ -215,15 +216,18 @@ void run_substeps(WorldState& world) {
   const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
   const bool joints = !world.joints.empty();
   const bool newton = world.newton != nullptr && world.newton->count > 0;
+  const bool effects = world.effects != nullptr && !world.effects->empty();
   const bool ledger = world.diagnostics.ledger;
   JobSystem* const jobs = world.jobs;
   if (ledger) {
     world.jobs = nullptr;  // the book is written by one thread
     open_ledger(world);
   }
+  if (effects) begin_effects(world);
   for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
   if (ledger) charge_flight(world);
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
+    if (effects) act_effects(world);
     if (!world.spinning_rows.empty()) carry_drives(world);
     if (!world.bouncing_rows.empty()) run_impacts(world);
     if (ledger) charge_bounces(world);
@@ -272,9 +276,11 @@ void run_substeps(WorldState& world) {
     for_rows_by_color(world, [&](ContactRow<Real>& row) { close_row(world, row); });
     if (ledger) charge(world, &EnergyLedger::normal);
     for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
+    if (effects) settle_effects(world);
     if (ledger) charge_finish(world);
   }
   world.jobs = jobs;
+  if (effects) end_effects(world);
   store_impulses(world);
   if (joints) store_joints(world);
   if (newton) report_newton_islands(world);

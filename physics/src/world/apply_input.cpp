@@ -1,4 +1,5 @@
 // Doing again what a recorded call did.
+#include "effects/effect_numbers.h"
 #include "world/inputs.h"
 #include "world/joint_inputs.h"
 
@@ -90,6 +91,12 @@ const char* name_of(InputKind kind) {
       return "set_one_way";
     case InputKind::SetColliderUserData:
       return "set_collider_user_data";
+    case InputKind::CreateEffect:
+      return "create_effect";
+    case InputKind::SetEffect:
+      return "set_effect";
+    case InputKind::DestroyEffect:
+      return "destroy_effect";
   }
   return "unknown";
 }
@@ -234,6 +241,17 @@ Status PhysicsWorld::apply_input(const InputRecord& input) {
       const std::uint64_t user_data = in.long_word();
       return in.complete() ? set_user_data(collider, user_data) : malformed;
     }
+    case InputKind::CreateEffect:
+    case InputKind::SetEffect: {
+      bool ok = true;
+      const Effect given = detail::read_effect(in, ok);
+      if (!ok || !in.complete()) return malformed;
+      return input.kind == InputKind::CreateEffect
+                 ? create_effect(given).status
+                 : set_effect(EffectId::from_value(input.target), given);
+    }
+    case InputKind::DestroyEffect:
+      return in.complete() ? destroy_effect(EffectId::from_value(input.target)) : malformed;
     case InputKind::ApplyForceAt:
     case InputKind::ApplyImpulseAt: {
       const Vec3 v = in.vector();

@@ -125,6 +125,7 @@ void update_locks(WorldState& world, std::uint32_t body) {
 // Places the colliders relative to the centre of mass and the principal axes.
 void update_collider_frames(WorldState& world, std::uint32_t body) {
   BodyInfo& info = world.bodies.info[body];
+  if (world.effects != nullptr) world.effects->forget_surface(body);
   info.size = 0;
   info.radius = 0;
   for (const std::uint32_t slot : info.colliders) {

@@ -16,9 +16,10 @@ inline Rotation to_real(NumRotation q) {
                              static_cast<Real>(q.w)});
 }
 
-// A dynamic body that no contact holds: it has flown the whole step at once.
+// A dynamic body that no contact holds and no effect moves: it has flown the whole step at once.
 inline bool flies_free(const WorldState& world, std::uint32_t dense) {
-  return !world.substep[dense].constrained && world.bodies.mass[dense].mass > Real(0);
+  const SubstepBody& s = world.substep[dense];
+  return !s.constrained && !s.affected && world.bodies.mass[dense].mass > Real(0);
 }
 // ... and whose path is a parabola, without damping.
 inline bool flies_a_parabola(const WorldState& world, std::uint32_t dense) {

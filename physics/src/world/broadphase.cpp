@@ -51,6 +51,7 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
     const Real pulled =
         length(multiply_each(bodies.mass[body.dense].inverse_mass, bodies.force[body.dense].force));
     around += world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
+    if (world.effects != nullptr) around += world.dt * world.dt * length(body.acceleration);
     path = world.dt * velocity.v;
   }
   const WorldAabb here{pose.x + cast<PosReal>(box.lower), pose.x + cast<PosReal>(box.upper)};

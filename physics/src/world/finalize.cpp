@@ -24,8 +24,8 @@ bool move_body(WorldState& world, std::uint32_t i) {
   BodyPose next = bodies.pose[i];
   next.x += cast<PosReal>(delta.dp);
   const bool dynamic = bodies.mass[i].mass > Real(0);
-  const bool turned_here =
-      world.substep[i].constrained || !dynamic;  // free bodies have turned already
+  const bool turned_here = world.substep[i].constrained || world.substep[i].affected ||
+                           !dynamic;  // free bodies have turned already
   if (turned_here) next.q = normalized(delta.dq * next.q);
   if (turned_here && dynamic)
     bodies.velocity[i].w = angular_velocity_of(bodies.mass[i], next.q, bodies.momentum[i].L);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/effect_world.h"
 #include "world/joint_world.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -43,6 +44,7 @@ void link_touching(WorldState& world) {
       link(world.parents, pair.body_a, pair.body_b);
   }
   if (!world.joints.empty()) link_joined(world);
+  if (world.effects != nullptr) link_tied(world);
 }
 
 // A body must be this slow to count as resting [m/s].
@@ -59,7 +61,7 @@ void update_rest_time(WorldState& world, std::uint32_t dense) {
   const Real speed = length(velocity.v) + length(velocity.w) * info.radius;
   // What nothing supports is not at rest, however slow it is at the moment: it floats or turns
   // back.
-  const bool supported = world.substep[dense].constrained;
+  const bool supported = world.substep[dense].constrained || world.substep[dense].balanced;
   const Real limit = rest_speed(world, info, world.bodies.mass[dense].gravity_scale);
   const bool still = length_squared(velocity.v) == Real(0) &&
                      length_squared(velocity.w) == Real(0) &&
@@ -126,6 +128,7 @@ void wake_body(WorldState& world, std::uint32_t body) {
   if (info.island == kNone) {
     world.bodies.wake(body);
     if (!world.joints.empty()) wake_joined(world, body);
+    if (world.effects != nullptr) wake_tied(world, body);
     return;
   }
   const std::uint32_t index = info.island;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <string>
 
+#include "effects/effect_world.h"
 #include "math/eigen_bridge.h"
+#include "motion/body_motion.h"
 #include "motion/rotation_flow.h"
 #include "solver/newton/choose.h"
 #include "world/world_state.h"
@@ -48,10 +50,12 @@ const char* name_of(PlanItem item) {
       return "one-way colliders";
     case PlanItem::AccurateContacts:
       return "accurate contacts";
-    case PlanItem::Count:
+    default:
       break;
   }
-  return "";
+  const std::size_t effect =
+      static_cast<std::size_t>(item) - static_cast<std::size_t>(PlanItem::PointGravity);
+  return name_of_effect(effect);  // empty for what is none
 }
 
 const char* name_of(Stage stage) {
@@ -105,9 +109,19 @@ namespace {
 struct Tally {
   std::uint32_t dynamic = 0, kinematic = 0, fixed = 0, awake = 0;
   std::uint32_t forced = 0, damped = 0, isotropic = 0, symmetric = 0, asymmetric = 0,
-                unturnable = 0;
+                unturnable = 0, steady = 0;
   std::uint32_t locked = 0, frictional = 0, bouncing = 0, sensors = 0, weightless = 0;
 };
+
+// Below this |w x L| h / |L| [-] the gyroscopic term turns L in the body by less than rounding does
+// in single precision.
+constexpr Real kSteadyTurn = Real(1e-6);
+
+bool turns_steadily(const WorldState& world, std::uint32_t dense) {
+  const Vec L = world.bodies.momentum[dense].L, w = world.bodies.velocity[dense].w;
+  const Real h = world.h > Real(0) ? world.h : Real(1.0 / 240);
+  return length(cross(w, L)) * h <= kSteadyTurn * length(L);
+}
 
 Tally tally(const WorldState& world) {
   Tally t;
@@ -132,6 +146,8 @@ Tally tally(const WorldState& world) {
       ++t.unturnable;
       continue;
     }
+    if (classify_inertia(m.moments) != RotationKind::Isotropic && turns_steadily(world, info.dense))
+      ++t.steady;
     switch (classify_inertia(m.moments)) {
       case RotationKind::Isotropic:
         ++t.isotropic;
@@ -199,13 +215,11 @@ StepPlan PhysicsWorld::plan() const {
          detail::of(t.forced, t.dynamic, "dynamic bodies have a force or torque waiting"));
   decide(PlanItem::Damping, t.damped > 0,
          detail::of(t.damped, t.dynamic, "dynamic bodies are damped"));
-  const bool gyro =
-      world.settings.rotation != RotationMethod::Book && t.symmetric + t.asymmetric > 0;
-  decide(
-      PlanItem::Gyroscopic, gyro,
-      detail::of(t.symmetric + t.asymmetric, t.dynamic, "dynamic bodies have unequal moments (") +
-          std::to_string(t.isotropic) + " isotropic, " + std::to_string(t.unturnable) +
-          " do not turn freely)");
+  const std::uint32_t tumbling = t.symmetric + t.asymmetric - t.steady;
+  decide(PlanItem::Gyroscopic, world.settings.rotation != RotationMethod::Book && tumbling > 0,
+         detail::of(tumbling, t.dynamic, "dynamic bodies (") + std::to_string(t.isotropic) +
+             " isotropic, " + std::to_string(t.steady) + " with w x I w h below 1e-6 I w, " +
+             std::to_string(t.unturnable) + " do not turn freely)");
   decide(PlanItem::MotionLocks, t.locked > 0,
          detail::of(t.locked, t.dynamic, "dynamic bodies have a locked axis"));
   const std::uint32_t pairs = static_cast<std::uint32_t>(world.pairs.size());
@@ -242,6 +256,15 @@ StepPlan PhysicsWorld::plan() const {
          std::to_string(counts.one_way) + " colliders are solid from one side only");
   const detail::AccurateChoice accurate = detail::accurate_choice(world);
   decide(PlanItem::AccurateContacts, accurate.active, accurate.reason);
+  for (std::size_t kind = 0; kind < kEffectKindCount; ++kind) {
+    const std::uint32_t effects = detail::effects_of_kind(world, kind);
+    const std::uint32_t reached = effects > 0 ? detail::bodies_reached(world, kind) : 0;
+    decide(static_cast<PlanItem>(static_cast<std::size_t>(PlanItem::PointGravity) + kind),
+           reached > 0,
+           effects == 0 ? "there is none"
+                        : std::to_string(effects) + " in the world, within reach of " +
+                              detail::of(reached, t.dynamic, "dynamic bodies"));
+  }
   return plan;
 }
 

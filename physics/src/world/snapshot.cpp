@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "collision/collide.h"
+#include "effects/effect_world.h"
 #include "math/eigen_bridge.h"
 #include "world/inputs.h"
 #include "world/joint_world.h"
@@ -426,6 +427,7 @@ void PhysicsWorld::save(Snapshot& snapshot) const {
   save_contact_data(out, world);
   save_pairs(out, world);
   save_joints(out, world);
+  save_effects(out, world);
 }
 
 Status PhysicsWorld::restore(const Snapshot& snapshot) {
@@ -447,11 +449,16 @@ Status PhysicsWorld::restore(const Snapshot& snapshot) {
   if (!table.ok() || !check(made->settings).ok()) return damaged;
   if (!restore_bodies(snapshot, *made) || !restore_colliders(snapshot, *made) ||
       !restore_islands(snapshot, *made) || !restore_contact_data(snapshot, *made) ||
-      !restore_pairs(snapshot, *made) || !restore_joints(snapshot, *made))
+      !restore_pairs(snapshot, *made) || !restore_joints(snapshot, *made) ||
+      !restore_effects(snapshot, *made))
     return damaged;
   restore_lists(*made);
   made->jobs = state_->jobs;
   made->observers = state_->observers;
+  if (state_->effects != nullptr && !state_->effects->hooks.empty()) {
+    if (made->effects == nullptr) made->effects = std::make_shared<EffectStore>();
+    made->effects->hooks = state_->effects->hooks;
+  }
   state_ = std::move(made);
   return {};
 }

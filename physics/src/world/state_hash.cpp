@@ -1,4 +1,5 @@
 // The digest of a world's state: what two runs are compared by.
+#include "effects/effect_world.h"
 #include "world/digest.h"
 #include "world/joint_world.h"
 
@@ -43,6 +44,8 @@ std::uint64_t PhysicsWorld::state_hash() const {
   detail::add_bodies(digest, *state_, true);
   detail::add_contacts(digest, *state_);
   if (!state_->joints.empty()) digest.add(detail::digest_of_joints(*state_));
+  if (state_->effects != nullptr)
+    if (const std::uint64_t effects = detail::digest_of_effects(*state_)) digest.add(effects);
   return digest.value();
 }
 

@@ -1,6 +1,7 @@
 // Building and taking apart: bodies, colliders, settings.
 #include <algorithm>
 
+#include "effects/effect_world.h"
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
 #include "world/inputs.h"
@@ -93,6 +94,7 @@ Status PhysicsWorld::destroy_body(BodyId body) {
   detail::wake_body(world, slot);
   detail::wake_around(world, slot);
   if (!world.joints.empty()) detail::remove_joints_of(world, slot);
+  if (world.effects != nullptr) detail::remove_effects_of(world, slot);
   const std::vector<std::uint32_t> colliders = world.bodies.info[slot].colliders;
   for (const std::uint32_t collider : colliders) detail::remove_collider(world, collider);
   world.contact_data.excluded_bodies.forget(slot);

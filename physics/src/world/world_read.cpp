@@ -1,4 +1,5 @@
 // Reading a world: states, contacts, energy. Queries: world_queries.cpp.
+#include "effects/effect_world.h"
 #include "motion/body_motion.h"
 #include "world/body_reading.h"
 #include "world/world_state.h"
@@ -211,6 +212,7 @@ EnergyReport PhysicsWorld::energy() const {
     detail::add_energy(sum, info.properties.mass, scale * g, bodies.pose[info.dense],
                        bodies.velocity[info.dense], bodies.momentum[info.dense].L);
   }
+  if (state_->effects != nullptr) sum.effects = detail::effect_potential(*state_);
   return sum;
 }
 

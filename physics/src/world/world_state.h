@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/aabb_tree.h"
+#include "effects/effect_store.h"
 #include "math/eigen_bridge.h"
 #include "plumb/world.h"
 #include "solver/contact_row.h"
@@ -99,7 +100,8 @@ struct WorldState {
   std::uint64_t contacts_fit = 0;  // pairs.changes() for which Contact::seen_from holds
   JointStore joints;
   ContactData contact_data;
-  std::vector<SensorOverlap> overlaps;  // after the last step, ascending
+  std::shared_ptr<EffectStore> effects;  // null until there was one
+  std::vector<SensorOverlap> overlaps;   // after the last step, ascending
   std::vector<SleepingIsland> islands;
   std::vector<std::uint32_t> free_islands;
   SceneCounts counts;

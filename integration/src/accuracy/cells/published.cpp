@@ -1,5 +1,5 @@
-// The scenes of SimBenchmark [Kang 2018], with its measures: rolling, bouncing, 666, elastic 666
-// and Kapla.
+// The scenes of SimBenchmark [Kang 2018], with its measures: rolling, bouncing, 666 and elastic
+// 666. Kapla's tower is not told well enough in the reference cases to be built again.
 #include <algorithm>
 
 #include "accuracy/cells/build.h"
@@ -14,8 +14,12 @@ MassProperties ball_mass(double mass, double radius) {
   return mass_of(mass, Vector3d::Constant(0.4 * mass * radius * radius));
 }
 
-// A box on 25 balls, pulled by 150 N. The measure is the mean of |v_box - v*|^2 + |v_ball - v*|^2;
-// the reading its root.
+// A box of 10 kg on 25 balls of 1 kg, pulled by 150 N; friction 0.4 below, 0.8 above the balls. Of
+// a ball f1 pulls the top, f2 the foot: m a = f1 + f2, 0.4 m a = f1 - f2 as it rolls on both, so
+// that f1 = 0.7 m a; the box goes twice as fast: 150 = 10 (2 a) + 25 (0.7 a), a = 4 m/s^2, and f2
+// = 1.2 N is within reach of friction. (The publication gives 0.7385 and 0.2110 m/s^2, which these
+// masses do not have.) The measure is the mean of |v_box - v*|^2 + |v_ball - v*|^2; the reading its
+// root.
 class Rolling : public Case {
  public:
   explicit Rolling(const Making& making) : Case(making.settings()) {
@@ -26,24 +30,23 @@ class Rolling : public Case {
     box_body.mass = mass_of(10, Vector3d(401, 800, 401) * 10.0 / 12);
     Collider plate;
     plate.shape = box(10, 0.5, 10);
-    plate.material = material(0.4);
-    plate.material.friction_rule = CombineRule::Maximum;
+    plate.material = material(0.8);
     box_ = must(world.create_body(box_body));
     must(world.create_collider(box_, plate));
     for (int i = -2; i <= 2; ++i)
       for (int k = -2; k <= 2; ++k) {
         RigidBody body = body_at(at({2.0 * i, 0.5, 2.0 * k}));
         body.mass = ball_mass(1, 0.5);
-        Material surface = material(0.8);  // with the box the larger counts: 0.8
-        surface.friction_rule = CombineRule::Maximum;
+        Material surface = material(0.8);  // the smaller counts: 0.4 with the floor
+        surface.friction_rule = CombineRule::Minimum;
         balls_.push_back(add(world, body, Sphere{Real(0.5)}, surface));
       }
   }
   void before_step() override { must(world.apply_force(box_, vec(kForce * direction_))); }
   void after_step() override {
     const double t = world.time();
-    sum_ += (wide(world.linear_velocity(box_)) - 0.7385 * t * direction_).squaredNorm() +
-            (wide(world.linear_velocity(balls_[0])) - 0.2110 * t * direction_).squaredNorm();
+    sum_ += (wide(world.linear_velocity(box_)) - 8 * t * direction_).squaredNorm() +
+            (wide(world.linear_velocity(balls_[0])) - 4 * t * direction_).squaredNorm();
     ++steps_;
   }
   [[nodiscard]] std::vector<double> readings() const override {
@@ -130,48 +133,13 @@ struct ElasticGrid : Balls {
   }
 };
 
-// Six floors of 8 base blocks and 9 walls. The reading is the farthest that any block has moved
-// [m].
-class Kapla : public Case {
- public:
-  explicit Kapla(const Making& making) : Case(making.settings()) {
-    seconds = 10;
-    const Material surface = material(0.8);
-    add_floor(world, surface);
-    for (int level = 0; level < 6; ++level) {
-      const double y = 0.3 * level;
-      for (int i = 0; i < 8; ++i) put({0.1 * i, y + 0.05, 0}, {0.025, 0.05, 0.125}, surface);
-      for (int i = 0; i < 9; ++i) put({0.1 * (i - 0.5), y + 0.2, 0}, {0.025, 0.1, 0.1}, surface);
-    }
-    bodies = static_cast<int>(blocks_.size());
-  }
-  [[nodiscard]] std::vector<double> readings() const override {
-    double farthest = 0;
-    for (std::size_t i = 0; i < blocks_.size(); ++i)
-      farthest = std::max(farthest, (place(world, blocks_[i]) - start_[i]).norm());
-    return {farthest};
-  }
-
- private:
-  void put(const Vector3d& p, const Vector3d& half, const Material& surface) {
-    RigidBody body = body_at(at(p));
-    const Vector3d s = half.cwiseProduct(half) * 10.0 / 3;
-    body.mass = mass_of(10, {s.y() + s.z(), s.x() + s.z(), s.x() + s.y()});
-    blocks_.push_back(add(world, body, Box{vec(half)}, surface));
-    start_.push_back(p);
-  }
-  std::vector<BodyId> blocks_;
-  std::vector<Vector3d> start_;
-};
-
 }  // namespace
 
 std::vector<CaseMaker> published_cases() {
   return {{"rolling", 1, make<Rolling>},
           {"bouncing49", 1, make<Bouncing>},
           {"666", 1, make<Grid>},
-          {"elastic666", 1, make<ElasticGrid>},
-          {"kapla", 1, make<Kapla>}};
+          {"elastic666", 1, make<ElasticGrid>}};
 }
 
 }  // namespace plumb::inline PLUMB_ABI::cells

@@ -113,3 +113,15 @@ constexpr accuracy::CellCode kCode{run, trace, time};
 const accuracy::CellCode& code() { return kCode; }
 
 }  // namespace plumb::inline PLUMB_ABI::cells
+
+namespace plumb::accuracy {
+
+#if defined(PLUMB_PRECISION_F64)
+const CellCode& cells_f64() { return cells::code(); }
+#elif defined(PLUMB_PRECISION_F32D)
+const CellCode& cells_f32d() { return cells::code(); }
+#else
+const CellCode& cells_f32() { return cells::code(); }
+#endif
+
+}  // namespace plumb::accuracy
