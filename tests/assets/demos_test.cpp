@@ -55,8 +55,8 @@ TEST(Demos, Ballistic) {
   EXPECT_LT(demo.speed("shuttlecock").x(), 1);
 }
 
-// The charge drives the stars apart evenly, the air resists in proportion to their speed: their mean
-// moves as one star alone would, y = (v + g T) T (1 - e^(-t/T)) - g T t, T = m/c = 1 s.
+// The charge drives the stars apart evenly, the air resists in proportion to their speed: their
+// mean moves as one star alone would, y = (v + g T) T (1 - e^(-t/T)) - g T t, T = m/c = 1 s.
 TEST(Demos, Fireworks) {
   Demo demo("fireworks");
   const auto mean = [&] {

@@ -20,8 +20,8 @@ struct RunOptions {
   std::optional<double> dt;           // [s]
   std::optional<int> substeps;
   std::optional<std::string> solver;  // a word of the scene key contact_solver
-  int threads = 1;      // 0: as many as the machine has
-  bool labels = false;  // names in the recording's 3D view
+  int threads = 1;                    // 0: as many as the machine has
+  bool labels = false;                // names in the recording's 3D view
   bool quiet = false;
 };
 int run_scene(const RunOptions& options);

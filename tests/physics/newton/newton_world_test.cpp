@@ -148,8 +148,8 @@ TEST(NewtonJoints, HingesWithMotorsAndLimitsCarryWhatTouchesThem) {
   EXPECT_NE(find_contact(contacts(world), table, load), nullptr);
 }
 
-// A chain over a pole with a ton at either end. Measured in double: it opens by 32 mm, 11 % of a link,
-// and gains up to 2.8 % of what its weights could fall by (wanted: 1 % both).
+// A chain over a pole with a ton at either end. Measured in double: it opens by 32 mm, 11 % of a
+// link, and gains up to 2.8 % of what its weights could fall by (wanted: 1 % both).
 TEST(NewtonJoints, ALoadedChainOverAPoleStaysTogether) {
   PhysicsWorld world(newton());
   add(world, body_at(at(0, 0, 0), MotionType::Static), with(sphere(0.4), material(0.3)));
