@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 readonly PACKAGES=(
   g++ cmake ninja-build ccache git ca-certificates curl pkg-config
   libeigen3-dev libassimp-dev zlib1g-dev assimp-testmodels libqhull-dev nlohmann-json3-dev libcli11-dev
-  libgtest-dev libbenchmark-dev libbox2d-dev
+  libgtest-dev libbenchmark-dev libbox2d-dev gnuplot-nox
 )
 # The Rerun SDK that replay is built on asks for this Rust; Debian 12's package `cargo` is older.
 readonly RUST_NEEDED=1.95
