@@ -3,10 +3,10 @@
 // at none.
 //
 // The step dx = M^-1 J^T l, (J M^-1 J^T + C) l = -error, is right to first order in how far it
-// turns bodies. A chain drawn straight can close only sideways, and there a small error asks for a
-// long way, again and again while a load draws it open. Two things keep such ways short: C damps
-// what moves much for little [Levenberg 1944], and a step goes no farther than where what it leaves
-// out, size turn^2 / 2, reaches the part kLeftOut of the error.
+// turns bodies. It goes no farther than where what it leaves out, size turn^2 / 2, reaches the part
+// kLeftOut of the error. A chain drawn straight can close only sideways, and there a small error
+// asks for a long way, again and again while a load draws it open: a step that would go too far is
+// solved once more with damping in C, which bends it away from such ways [Levenberg 1944].
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -143,12 +143,9 @@ void keep_angular_momentum(WorldState& world, const JointPiece& piece, std::uint
   });
 }
 
-}  // namespace
-
-void close_joints_of(WorldState& world, const JointPiece& piece) {
-  JointScratch& scratch = *world.joints.scratch;
-  bool open = false;
-  Real largest = 0;  // error, in sizes or radians
+// Sets up the rows, C with so much damping [-]. Returns the largest error, in sizes or radians.
+Real ask_for_closing(JointScratch& scratch, const JointPiece& piece, double damping) {
+  Real largest = 0;
   for (std::uint32_t i = piece.begin; i < piece.end; ++i) {
     const JointBlock& block = scratch.blocks[i];
     SystemRow* rows = &scratch.system.rows[std::size_t{kMaxJointRows} * i];
@@ -156,23 +153,39 @@ void close_joints_of(WorldState& world, const JointPiece& piece) {
       rows[k] = {};
       if (k >= block.held) continue;
       const Real error = block.row[k].value - block.row[k].target;
-      const Real relative = std::abs(error) / size_of(block, k);
-      open = open || relative > joint_tolerance::kClosed;
-      largest = std::max(largest, relative);
+      largest = std::max(largest, std::abs(error) / size_of(block, k));
       const Real most = most_of(block, k, piece.h);
       rows[k].acts = true;
-      rows[k].give = joint_tolerance::kClosingDamping * mobility(block, k);
+      if (damping > 0) rows[k].give = damping * mobility(block, k);
       rows[k].value =
           -static_cast<double>(std::min(std::max(block.correction * error, -most), most));
     }
   }
-  if (!open) return;
+  return largest;
+}
+
+// Solves for the step. Returns the part of it that may be gone.
+Real find_step(WorldState& world, const JointPiece& piece, Real error) {
+  JointScratch& scratch = *world.joints.scratch;
   factor_piece(scratch.system, scratch.blocks, piece);
   solve_factored(scratch.system, scratch.blocks, piece);
+  return share_of_step(world, piece, error);
+}
+
+}  // namespace
+
+void close_joints_of(WorldState& world, const JointPiece& piece) {
+  JointScratch& scratch = *world.joints.scratch;
+  const Real error = ask_for_closing(scratch, piece, 0);
+  if (!(error > joint_tolerance::kClosed)) return;
+  Real share = find_step(world, piece, error);
+  if (share < Real(1)) {
+    ask_for_closing(scratch, piece, joint_tolerance::kClosingDamping);
+    share = find_step(world, piece, error);
+  }
   const std::uint32_t origin = scratch.members[scratch.order[piece.begin]].body[0];
   Orbit before;
   if (!piece.anchored) before = orbit_of(world, piece, origin);
-  const Real share = share_of_step(world, piece, largest);
   for (std::uint32_t i = piece.begin; i < piece.end; ++i) displace(world, i, share);
   for_bodies(scratch, piece, [&](std::uint32_t i) { refresh(world, i); });
   if (!piece.anchored) keep_angular_momentum(world, piece, origin, before);
