@@ -382,7 +382,8 @@ TEST(RotationFlow, SeriesGivesTheSameBitsInEveryLane) {
     }
     expected[lane] = series_turn<8>(direction, turn, sin_cos<double>);
   }
-  const Quaternion<Lanes> q = series_turn<8>(n, g, [](Lanes a, Lanes& s, Lanes& c) { sin_cos(a, s, c); });
+  const Quaternion<Lanes> q =
+      series_turn<8>(n, g, [](Lanes a, Lanes& s, Lanes& c) { sin_cos(a, s, c); });
   for (std::size_t lane = 0; lane < 4; ++lane) {
     EXPECT_EQ(q.x.v[lane], expected[lane].x);
     EXPECT_EQ(q.y.v[lane], expected[lane].y);

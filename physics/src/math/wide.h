@@ -8,6 +8,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
@@ -163,15 +166,74 @@ template <class R, int W>
 struct Quad {
   Wide<R, W> x, y, z, w;
 };
+
+namespace quads {
+
+template <class V, int W, class Pattern>
+V shuffle(V a, V b, Pattern pattern) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return __builtin_shufflevector(a, b, pattern(static_cast<int>(I))...);
+  }(std::make_index_sequence<static_cast<std::size_t>(W)>());
+}
+
+// In every group of four lanes: four rows of four become four columns, and back.
+template <class R, int W>
+void transpose(typename Lanes<R, W>::Reals (&r)[4]) {
+  using V = typename Lanes<R, W>::Reals;
+  constexpr auto low = [](int i) constexpr { return i / 4 * 4 + i % 4 / 2 + i % 2 * W; };
+  constexpr auto high = [](int i) constexpr { return i / 4 * 4 + 2 + i % 4 / 2 + i % 2 * W; };
+  constexpr auto first = [](int i) constexpr { return i / 4 * 4 + i % 2 + i % 4 / 2 * W; };
+  constexpr auto second = [](int i) constexpr { return i / 4 * 4 + 2 + i % 2 + i % 4 / 2 * W; };
+  const V t0 = shuffle<V, W>(r[0], r[1], low), t1 = shuffle<V, W>(r[0], r[1], high);
+  const V t2 = shuffle<V, W>(r[2], r[3], low), t3 = shuffle<V, W>(r[2], r[3], high);
+  r[0] = shuffle<V, W>(t0, t2, first);
+  r[1] = shuffle<V, W>(t0, t2, second);
+  r[2] = shuffle<V, W>(t1, t3, first);
+  r[3] = shuffle<V, W>(t1, t3, second);
+}
+
+template <class R>
+typename Lanes<R, 4>::Reals load(const R* from) {
+  typename Lanes<R, 4>::Reals v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+// The quads of lanes k, k + 4, k + 8 ... behind one another.
+template <class R, int W>
+typename Lanes<R, W>::Reals row(const R* base, std::size_t stride, const std::uint32_t* index) {
+  if constexpr (W == 4) {
+    return load(base + *index * stride);
+  } else {
+    const auto a = row<R, W / 2>(base, stride, index);
+    const auto b = row<R, W / 2>(base, stride, index + W / 2);
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return __builtin_shufflevector(a, b, static_cast<int>(I)...);
+    }(std::make_index_sequence<static_cast<std::size_t>(W)>());
+  }
+}
+template <class R, int W>
+void store(const typename Lanes<R, W>::Reals& v, int group, R* to) {
+  std::memcpy(to, reinterpret_cast<const R*>(&v) + 4 * group, 4 * sizeof(R));
+}
+
+}  // namespace quads
+
 template <class R, int W>
 Quad<R, W> gather_quad(const R* base, std::size_t stride, const std::uint32_t* index) {
   Quad<R, W> out;
-  for (int i = 0; i < W; ++i) {
-    const R* record = base + index[i] * stride;
-    out.x.v[i] = record[0];
-    out.y.v[i] = record[1];
-    out.z.v[i] = record[2];
-    out.w.v[i] = record[3];
+  if constexpr (W >= 4) {
+    typename Lanes<R, W>::Reals r[4];
+    for (int k = 0; k < 4; ++k) r[k] = quads::row<R, W>(base, stride, index + k);
+    quads::transpose<R, W>(r);
+    out = {Wide<R, W>(r[0]), Wide<R, W>(r[1]), Wide<R, W>(r[2]), Wide<R, W>(r[3])};
+  } else {
+    for (int i = 0; i < W; ++i) {
+      const R* record = base + index[i] * stride;
+      out.x.v[i] = record[0];
+      out.y.v[i] = record[1];
+      out.z.v[i] = record[2];
+      out.w.v[i] = record[3];
+    }
   }
   return out;
 }
@@ -179,13 +241,20 @@ Quad<R, W> gather_quad(const R* base, std::size_t stride, const std::uint32_t* i
 template <class R, int W>
 void scatter_quad(const Quad<R, W>& in, R* base, std::size_t stride, const std::uint32_t* index,
                   std::uint32_t which) {
-  for (int i = 0; i < W; ++i) {
-    if ((which >> i & 1u) == 0) continue;
-    R* record = base + index[i] * stride;
-    record[0] = in.x.v[i];
-    record[1] = in.y.v[i];
-    record[2] = in.z.v[i];
-    record[3] = in.w.v[i];
+  if constexpr (W >= 4) {
+    typename Lanes<R, W>::Reals r[4] = {in.x.v, in.y.v, in.z.v, in.w.v};
+    quads::transpose<R, W>(r);
+    for (int i = 0; i < W; ++i)
+      if ((which >> i & 1u) != 0) quads::store<R, W>(r[i % 4], i / 4, base + index[i] * stride);
+  } else {
+    for (int i = 0; i < W; ++i) {
+      if ((which >> i & 1u) == 0) continue;
+      R* record = base + index[i] * stride;
+      record[0] = in.x.v[i];
+      record[1] = in.y.v[i];
+      record[2] = in.z.v[i];
+      record[3] = in.w.v[i];
+    }
   }
 }
 

@@ -15,10 +15,10 @@ struct BlockHead {
   static constexpr int kMostLanes = 16;
   std::uint32_t body_a[kMostLanes]{}, body_b[kMostLanes]{};  // dense; 0 in unused lanes
   std::uint32_t row[kMostLanes]{};                           // index into the world's rows
-  std::uint64_t numbers = 0;                             // where its RowNumbers begin [Real]
-  std::uint32_t points = 0;                              // of each row
-  std::uint32_t lanes = 0;                               // bit i: lane i holds a row
-  std::uint32_t writes_a = 0, writes_b = 0;              // ... whose body is dynamic
+  std::uint64_t numbers = 0;                                 // where its RowNumbers begin [Real]
+  std::uint32_t points = 0;                                  // of each row
+  std::uint32_t lanes = 0;                                   // bit i: lane i holds a row
+  std::uint32_t writes_a = 0, writes_b = 0;                  // ... whose body is dynamic
 };
 
 struct BlockPass {

@@ -14,11 +14,11 @@ namespace plumb::inline PLUMB_ABI::detail {
 // One body, or W of them.
 template <class T>
 struct BodyLanes {
-  Vector3<T> v, w, L;     // [m/s], [rad/s], [kg m^2/s]
-  Vector3<T> dp;          // [m] since the step began
-  Quaternion<T> dq;       // ... world axes
-  Quaternion<T> start;    // R_WP when the step began
-  Vector3<T> J;           // [1/(kg m^2)] about the principal axes
+  Vector3<T> v, w, L;   // [m/s], [rad/s], [kg m^2/s]
+  Vector3<T> dp;        // [m] since the step began
+  Quaternion<T> dq;     // ... world axes
+  Quaternion<T> start;  // R_WP when the step began
+  Vector3<T> J;         // [1/(kg m^2)] about the principal axes
 };
 
 template <class T>
@@ -27,6 +27,9 @@ Vector3<T> turn_rate_of(Vector3<T> J, Quaternion<T> q, Vector3<T> L) {
 }
 
 inline constexpr Real kHuge = std::numeric_limits<Real>::max();
+// A smaller turn leaves no trace in a unit quaternion [rad]. What rests is not turned by it: its
+// powers would be denormal numbers, which take processors many times as long.
+inline constexpr Real kNoTurn = std::numeric_limits<Real>::epsilon() / Real(64);
 
 // Turns q by the torque-free flow, where one series does; elsewhere q is left as it is. Returns
 // where it was turned (rotation_flow.h has the limits).
@@ -34,7 +37,8 @@ template <class T>
 MaskOf<T> turn_by_series(Quaternion<T>& q, Vector3<T> L, Vector3<T> J, T h) {
   using Choice = SeriesChoice<Real>;
   const T largest = larger_of(size_of(L.x), larger_of(size_of(L.y), size_of(L.z)));
-  const MaskOf<T> turns = largest > T(0);
+  const MaskOf<T> turns = largest * (larger_of(J.x, larger_of(J.y, J.z)) * size_of(h)) > T(kNoTurn);
+  if (!any(turns)) return negate(turns) & (largest < T(kHuge));
   const T divisor = select(turns, largest, T(1));
   const Vector3<T> scaled{L.x / divisor, L.y / divisor, L.z / divisor};
   const T scaled_length = length(scaled);
@@ -55,10 +59,10 @@ MaskOf<T> turn_by_series(Quaternion<T>& q, Vector3<T> L, Vector3<T> J, T h) {
             select(is_short, turn.z, longer.z), select(is_short, turn.w, longer.w)};
   }
   const Quaternion<T> turned = normalized(q * turn);
-  const MaskOf<T> takes = turns & small & is_long & (size_of(dot(L, L)) < T(kHuge));
+  const MaskOf<T> takes = turns & small & is_long;
   q = {select(takes, turned.x, q.x), select(takes, turned.y, q.y), select(takes, turned.z, q.z),
        select(takes, turned.w, q.w)};
-  return negate(turns) | takes;
+  return (negate(turns) & (largest < T(kHuge))) | takes;
 }
 
 // Known forces act for a time h. `a` [m/s^2], `torque` [N m].
@@ -89,8 +93,10 @@ MaskOf<T> drift_lanes(BodyLanes<T>& b, T h) {
 // dq turned further by a correction [rad], in world axes; by 1.6 rad at most.
 template <class T>
 Quaternion<T> turned_further(Quaternion<T> dq, Vector3<T> turn) {
+  const T largest = larger_of(size_of(turn.x), larger_of(size_of(turn.y), size_of(turn.z)));
+  const MaskOf<T> turns = largest > T(kNoTurn);
+  if (!any(turns)) return dq;
   const T angle = length(turn);
-  const MaskOf<T> turns = angle > T(0);
   T s, c;
   sin_cos_of_small(smaller_of(T(Real(0.5)) * angle, T(kSmallAngle)), s, c);
   const Vector3<T> u = (s / select(turns, angle, T(1))) * turn;

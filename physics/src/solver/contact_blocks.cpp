@@ -12,8 +12,7 @@ using Numbers = RowNumbers<Real, ContactRow<Real>::kMaxPoints>;
 
 // [Real] what stands before the points, and what one point takes.
 constexpr std::size_t kPointReals = sizeof(Numbers::Point) / sizeof(Real);
-constexpr std::size_t kHeadReals =
-    sizeof(Numbers) / sizeof(Real) - Numbers::kRoom * kPointReals;
+constexpr std::size_t kHeadReals = sizeof(Numbers) / sizeof(Real) - Numbers::kRoom * kPointReals;
 constexpr std::size_t reals_of(int points) {
   return kHeadReals + static_cast<std::size_t>(points) * kPointReals;
 }

@@ -111,7 +111,7 @@ struct ContactRow : RowNumbers<T, 4> {
   int count = 0;
   bool in_block = false;  // the wide kernel has it in this step (contact_blocks.h)
 
-  Vector3<T> between;                  // [m] from A's centre of mass to B's
+  Vector3<T> between;  // [m] from A's centre of mass to B's
   bool both_dynamic = false;
   T restitution = T(0);
   std::uint32_t turning = kNoTurning;  // its row of rolling and torsional friction, if any

@@ -158,9 +158,8 @@ class Bodies {
     const auto L = read(pass.momentum, 4), J = read(pass.mass + 4, 12);
     const auto p = read(pass.delta, 8), dq = read(pass.delta + 4, 8);
     const auto q = read(pass.orientation, pass.pose_stride);
-    lanes = {{v.x, v.y, v.z},          {w.x, w.y, w.z},          {L.x, L.y, L.z},
-             {p.x, p.y, p.z},          {dq.x, dq.y, dq.z, dq.w}, {q.x, q.y, q.z, q.w},
-             {J.x, J.y, J.z}};
+    lanes = {{v.x, v.y, v.z},          {w.x, w.y, w.z},      {L.x, L.y, L.z}, {p.x, p.y, p.z},
+             {dq.x, dq.y, dq.z, dq.w}, {q.x, q.y, q.z, q.w}, {J.x, J.y, J.z}};
   }
   BodyLanes<Number> lanes;
 
@@ -258,8 +257,8 @@ void finish_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t whic
 std::uint32_t fly_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {
   Bodies bodies(pass, first, which);
   Quaternion<Number> q;
-  const std::uint32_t done = bits_of(
-      fly_lanes(bodies.lanes, q, bodies.acceleration(), bodies.torque(), Number(pass.dt)));
+  const std::uint32_t done =
+      bits_of(fly_lanes(bodies.lanes, q, bodies.acceleration(), bodies.torque(), Number(pass.dt)));
   bodies.keep(done);
   bodies.write_momentum();
   bodies.write_velocity();
@@ -269,25 +268,25 @@ std::uint32_t fly_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_
 }
 
 // Calls the version of a block kernel for the block's number of points.
-#define PLUMB_FOR_EACH_BLOCK(kernel)                                              \
-  [](const BlockPass& pass, std::uint32_t begin, std::uint32_t end) {             \
-    for (std::uint32_t i = begin; i < end; ++i) {                                 \
-      const BlockHead& head = pass.heads[i];                                      \
-      switch (head.points) {                                                      \
-        case 1:                                                                   \
-          kernel<1>(pass, head);                                                  \
-          break;                                                                  \
-        case 2:                                                                   \
-          kernel<2>(pass, head);                                                  \
-          break;                                                                  \
-        case 3:                                                                   \
-          kernel<3>(pass, head);                                                  \
-          break;                                                                  \
-        default:                                                                  \
-          kernel<4>(pass, head);                                                  \
-          break;                                                                  \
-      }                                                                           \
-    }                                                                             \
+#define PLUMB_FOR_EACH_BLOCK(kernel)                                  \
+  [](const BlockPass& pass, std::uint32_t begin, std::uint32_t end) { \
+    for (std::uint32_t i = begin; i < end; ++i) {                     \
+      const BlockHead& head = pass.heads[i];                          \
+      switch (head.points) {                                          \
+        case 1:                                                       \
+          kernel<1>(pass, head);                                      \
+          break;                                                      \
+        case 2:                                                       \
+          kernel<2>(pass, head);                                      \
+          break;                                                      \
+        case 3:                                                       \
+          kernel<3>(pass, head);                                      \
+          break;                                                      \
+        default:                                                      \
+          kernel<4>(pass, head);                                      \
+          break;                                                      \
+      }                                                               \
+    }                                                                 \
   }
 
 }  // namespace

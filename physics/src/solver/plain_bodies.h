@@ -28,8 +28,7 @@ class PlainBodies {
                   sizeof(BodyDelta) == 8 * sizeof(Real) &&
                   sizeof(BodyMomentum) == 4 * sizeof(Real) &&
                   sizeof(BodyMass) == 12 * sizeof(Real) && sizeof(BodyForce) == 8 * sizeof(Real) &&
-                  sizeof(SubstepBody) == 32 * sizeof(Real) &&
-                  sizeof(BodyPose) % sizeof(Real) == 0);
+                  sizeof(SubstepBody) == 32 * sizeof(Real) && sizeof(BodyPose) % sizeof(Real) == 0);
     pass_.velocity = &bodies.velocity.data()->v.x;
     pass_.delta = &world.delta.data()->dp.x;
     pass_.momentum = &bodies.momentum.data()->L.x;
@@ -44,15 +43,16 @@ class PlainBodies {
     for_chunks([&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) {
         const SubstepBody& s = world.substep[i];
-        world.body_ways[i] = !is_plain(world, i)                      ? BodyWay::Other
-                             : s.constrained && !s.split              ? BodyWay::Held
+        world.body_ways[i] = !is_plain(world, i)             ? BodyWay::Other
+                             : s.constrained && !s.split     ? BodyWay::Held
                              : !s.constrained && !s.affected ? BodyWay::Free
-                                                                      : BodyWay::Other;
+                                                             : BodyWay::Other;
       }
     });
   }
 
-  // Each runs the kernel on what it takes, and task(i) on every other awake body.
+  // Each runs the kernel on what goes that way; task(i) on what the kernel leaves, and on bodies
+  // that go no plain way.
   template <class Task>
   void fly(Task&& task) {
     sweep(BodyWay::Free, task, [&](std::uint32_t first, std::uint32_t which) {
@@ -90,10 +90,9 @@ class PlainBodies {
   template <class Range>
   void for_chunks(Range&& range) {
     const std::uint32_t first = world_.bodies.awake_begin;
-    parallel_for(world_, world_.bodies.awake_end - first, tolerance::kBodyGrain,
-                 [&](std::uint32_t begin, std::uint32_t end) {
-                   range(first + begin, first + end);
-                 });
+    parallel_for(
+        world_, world_.bodies.awake_end - first, tolerance::kBodyGrain,
+        [&](std::uint32_t begin, std::uint32_t end) { range(first + begin, first + end); });
   }
   template <class Task, class Run>
   void sweep(BodyWay way, Task&& task, Run&& run) {
@@ -101,13 +100,17 @@ class PlainBodies {
     for_chunks([&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t first = begin; first < end; first += lanes) {
         const std::uint32_t count = std::min(lanes, end - first);
-        std::uint32_t which = 0;
-        for (std::uint32_t k = 0; k < count; ++k)
+        std::uint32_t which = 0, others = 0;
+        for (std::uint32_t k = 0; k < count; ++k) {
           which |= (world_.body_ways[first + k] == way ? 1u : 0u) << k;
+          others |= (world_.body_ways[first + k] == BodyWay::Other ? 1u : 0u) << k;
+        }
         // The kernel reads all its lanes: not past the last body.
-        if (lanes == 1 || count < lanes) which = 0;
-        std::uint32_t others = ((1u << count) - 1u) & ~which;
-        if (which != 0) others |= run(first, which);
+        if (lanes == 1 || count < lanes) {
+          others |= which;
+        } else if (which != 0) {
+          others |= run(first, which);
+        }
         for (; others != 0; others &= others - 1)
           task(first + static_cast<std::uint32_t>(std::countr_zero(others)));
       }

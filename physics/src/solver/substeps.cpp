@@ -115,7 +115,8 @@ void drift_body(WorldState& world, std::uint32_t i) {
   }
 }
 
-// How much of what the rows took from the velocities counts backwards [s]; ends the substep's notes.
+// How much of what the rows took from the velocities counts backwards [s]; ends the substep's
+// notes.
 Real trapezoid_weight(WorldState& world, std::uint32_t i) {
   SubstepBody& s = world.substep[i];
   const bool changed = world.contacts_changed[i] != 0;

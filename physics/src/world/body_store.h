@@ -16,9 +16,9 @@ inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max()
 // --- dense: read by every stage of the step ------------------------------------------------------
 
 // Bytes per record in f32 / f64 stand behind the name.
-struct BodyVelocity {  // 32 / 64
-  Vec v{0, 0, 0};      // [m/s] centre of mass
-  Real load = 0;       // [N s] normal impulse in this substep; scratch of the solver
+struct BodyVelocity {     // 32 / 64
+  Vec v{0, 0, 0};         // [m/s] centre of mass
+  Real load = 0;          // [N s] normal impulse in this substep; scratch of the solver
   Vec w{0, 0, 0};         // [rad/s] world axes
   Real sliding_load = 0;  // [N s] the part of it that slides
 };

@@ -25,8 +25,10 @@ Real skin_of(const ColliderInfo& collider) {
 }
 
 struct Reach {
-  WorldAabb box;  // all places of the collider in the next step, unless something hits the body
-  PosVec path;    // [m] of its centre of mass in it
+  WorldAabb box;   // all places of the collider in the next step, unless something hits the body
+  PosVec path;     // [m] of its centre of mass in it
+  WorldAabb ball;  // all places with the body turned in any way
+  Real turn = 0;   // [m] by which turning may move a point
 };
 
 Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) {
@@ -38,14 +40,16 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
   const Real slops = tolerance::kMarginSlops * tolerance::kSlopFraction * skin_of(collider);
   Aabb box = tight;
   Vec path{0, 0, 0};
-  Real around = slops;
+  Real around = slops, turn = 0;
+  Vec ball{0, 0, 0};
   if (!collider.is_static) {
     const BodyVelocity& velocity = bodies.velocity[body.dense];
     // Turning moves a point by at most |w| times its distance from the centre of mass, and never
     // out of the ball around it.
     const Real far = length(collider.in_body.p) + bounding_radius(collider.shape);
-    const Real turn = std::min(world.dt * length(velocity.w) * far, Real(2) * far);
-    const Vec t{turn, turn, turn}, ball{far, far, far};
+    turn = std::min(world.dt * length(velocity.w) * far, Real(2) * far);
+    const Vec t{turn, turn, turn};
+    ball = {far, far, far};
     box = {max_each(tight.lower - t, min_each(-ball, tight.lower)),
            min_each(tight.upper + t, max_each(ball, tight.upper))};
     const Real pulled =
@@ -57,7 +61,10 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
   }
   const WorldAabb here{pose.x + cast<PosReal>(box.lower), pose.x + cast<PosReal>(box.upper)};
   const PosVec way = cast<PosReal>(path);
-  return {grown(swept(here, way), static_cast<PosReal>(around)), way};
+  const PosVec b = cast<PosReal>(ball);
+  const PosReal more = static_cast<PosReal>(around);
+  return {grown(swept(here, way), more), way, grown(swept({pose.x - b, pose.x + b}, way), more),
+          turn};
 }
 
 }  // namespace
@@ -69,16 +76,29 @@ PosVec update_reach(WorldState& world, std::uint32_t slot) {
   return reach.path;
 }
 
+bool leaves_proxy(WorldState& world, std::uint32_t slot) {
+  const ColliderInfo& collider = world.colliders.info[slot];
+  update_reach(world, slot);
+  const AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
+  return !contains(tree.box(collider.proxy), world.reach[slot]);
+}
+
 void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
+  if (force || leaves_proxy(world, slot)) give_proxy(world, slot);
+}
+
+void give_proxy(WorldState& world, std::uint32_t slot) {
   ColliderInfo& collider = world.colliders.info[slot];
   AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
-  const PosVec path = update_reach(world, slot);
-  const WorldAabb& reach = world.reach[slot];
-  if (!force && contains(tree.box(collider.proxy), reach)) return;
-  WorldAabb fat = reach;
+  const Reach reach = reach_in_next_step(world, collider);
+  if (world.reach.size() <= slot) world.reach.resize(slot + 1);
+  world.reach[slot] = reach.box;
+  WorldAabb fat = reach.box;
   if (!collider.is_static) {
     const Real spare = tolerance::kFatBoxFraction * skin_of(collider);
-    fat = grown(swept(fat, static_cast<PosReal>(tolerance::kFatBoxSteps) * path),
+    // What spins would soon turn out of a close box: it gets one that it cannot turn out of.
+    if (tolerance::kFatBoxSteps * reach.turn > spare) fat = union_of(fat, reach.ball);
+    fat = grown(swept(fat, static_cast<PosReal>(tolerance::kFatBoxSteps) * reach.path),
                 static_cast<PosReal>(spare));
   }
   if (collider.proxy == AabbTree::kNull) {

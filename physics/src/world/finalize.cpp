@@ -49,6 +49,24 @@ void quarantine(WorldState& world, std::uint32_t body) {
   world.bodies.rest(body);
 }
 
+// Boxes of the colliders of the bodies that moved. Who leaves its box is found by all threads; the
+// tree is changed by one, in the order of the bodies.
+void renew_boxes(WorldState& world, const std::vector<std::uint32_t>& moved) {
+  const std::uint32_t count = static_cast<std::uint32_t>(moved.size());
+  std::vector<std::uint8_t>& leaves = world.leaves_box;
+  leaves.assign(count, 0);
+  parallel_for(world, count, tolerance::kBodyGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i)
+      for (const std::uint32_t collider : world.bodies.info[moved[i]].colliders)
+        leaves[i] |= leaves_proxy(world, collider) ? 1 : 0;
+  });
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (leaves[i] == 0) continue;
+    for (const std::uint32_t collider : world.bodies.info[moved[i]].colliders)
+      update_proxy(world, collider, false);
+  }
+}
+
 }  // namespace
 
 void finalize_bodies(WorldState& world) {
@@ -67,11 +85,10 @@ void finalize_bodies(WorldState& world) {
   for (std::uint32_t i = bodies.awake_begin; i < bodies.awake_end; ++i)
     (unsound[i] != 0 ? to_quarantine : moved).push_back(bodies.slot_of[i]);
   std::sort(to_quarantine.begin(), to_quarantine.end());
-  std::sort(moved.begin(), moved.end());
+  if (!std::is_sorted(moved.begin(), moved.end())) std::sort(moved.begin(), moved.end());
   for (const std::uint32_t body : to_quarantine) quarantine(world, body);
+  renew_boxes(world, moved);
   for (const std::uint32_t body : moved) {
-    for (const std::uint32_t collider : bodies.info[body].colliders)
-      update_proxy(world, collider, false);
     // A kinematic body that has been told to stand still costs nothing.
     const std::uint32_t dense = bodies.info[body].dense;
     if (bodies.info[body].type == MotionType::Kinematic &&

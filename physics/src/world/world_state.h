@@ -137,8 +137,8 @@ struct WorldState {
   std::vector<std::uint8_t> contacts_changed;  // per dense index: other points carry load now
   std::vector<BodyWay> body_ways;              // per dense index
   ContactBlocks blocks;
-  std::vector<std::uint64_t> color_mask;       // per dense index
-  std::vector<std::uint32_t> parents;          // union-find, per slot
+  std::vector<std::uint64_t> color_mask;  // per dense index
+  std::vector<std::uint32_t> parents;     // union-find, per slot
   std::vector<std::uint64_t> new_keys;
   std::vector<std::vector<std::uint64_t>> new_keys_by_chunk;
   std::vector<Pair> new_pairs;
@@ -158,7 +158,8 @@ struct WorldState {
   mutable FactsCache facts;  // for images
   std::vector<OverlapChange> overlap_changes;
   std::vector<SensorOverlap> new_overlaps;
-  std::vector<std::uint32_t> moved;  // bodies moved by the last step, ascending slots
+  std::vector<std::uint8_t> leaves_box;  // of `moved`
+  std::vector<std::uint32_t> moved;      // bodies moved by the last step, ascending slots
 };
 
 // Runs task(begin, end) over [0, count), on the job system where there is one and it is worth it.
@@ -220,6 +221,10 @@ void count_collider(SceneCounts& counts, const Collider& collider, std::uint32_t
 
 // --- boxes (world/broadphase.cpp) ---
 void update_proxy(WorldState& world, std::uint32_t collider, bool force);
+// Its two halves: whether the collider may leave its box in the next step, and a new box. Only the
+// first may run for several colliders at once.
+bool leaves_proxy(WorldState& world, std::uint32_t collider);
+void give_proxy(WorldState& world, std::uint32_t collider);
 // The box of all places that a collider may take in the next step; returns its body's path [m].
 PosVec update_reach(WorldState& world, std::uint32_t collider);
 
