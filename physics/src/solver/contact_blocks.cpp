@@ -61,9 +61,8 @@ class Sorter {
 
   void sort() {
     blocks_.heads.clear();
-    blocks_.heads_of.clear();
     blocks_.loose.clear();
-    blocks_.loose_of.clear();
+    blocks_.colors.clear();
     reals_ = 0;
     for (const ColorRange color : world_.colors) sort_color(color);
     blocks_.numbers.resize((reals_ * sizeof(Real) + sizeof(ContactBlocks::Line) - 1) /
@@ -72,10 +71,31 @@ class Sorter {
 
  private:
   void sort_color(ColorRange color) {
-    const std::uint32_t first_head = static_cast<std::uint32_t>(blocks_.heads.size());
-    const std::uint32_t first_loose = static_cast<std::uint32_t>(blocks_.loose.size());
+    ContactBlocks::Color& sorted = blocks_.colors.emplace_back();
+    sorted.heads.begin = heads();
+    sorted.loose.begin = loose();
+    if (world_.deep_overlap) sort_rows(color, true);
+    sorted.deep_heads = heads();
+    sorted.deep_loose = loose();
+    sort_rows(color, false);
+    sorted.heads.end = heads();
+    sorted.loose.end = loose();
+  }
+  [[nodiscard]] std::uint32_t heads() const {
+    return static_cast<std::uint32_t>(blocks_.heads.size());
+  }
+  [[nodiscard]] std::uint32_t loose() const {
+    return static_cast<std::uint32_t>(blocks_.loose.size());
+  }
+  [[nodiscard]] bool is_deep(const ContactRow<Real>& row) const {
+    return world_.deep_overlap &&
+           (world_.overlaps_deeply[row.body_a] | world_.overlaps_deeply[row.body_b]) != 0;
+  }
+
+  void sort_rows(ColorRange color, bool deep) {
     for (std::uint32_t i = color.begin; i < color.end; ++i) {
       ContactRow<Real>& row = world_.rows[i];
+      if (is_deep(row) != deep) continue;
       if (blocks_.kernel.lanes > 1 && fits_block(world_, bounces_, row)) {
         by_points_[row.count - 1].push_back(i);
       } else {
@@ -91,8 +111,6 @@ class Sorter {
       for (; taken < rows.size(); ++taken) blocks_.loose.push_back(rows[taken]);
       rows.clear();
     }
-    blocks_.heads_of.push_back({first_head, static_cast<std::uint32_t>(blocks_.heads.size())});
-    blocks_.loose_of.push_back({first_loose, static_cast<std::uint32_t>(blocks_.loose.size())});
   }
 
   void add_block(int points, const std::uint32_t* rows, std::size_t count) {

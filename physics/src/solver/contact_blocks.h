@@ -19,11 +19,16 @@ struct ContactBlocks {
   struct alignas(64) Line {
     std::uint8_t bytes[64];
   };
+  // What one colour has: first the rows of bodies that overlap deeply, which are relaxed more often
+  // (up to the `deep` marks), then the others.
+  struct Color {
+    Range heads, loose;
+    std::uint32_t deep_heads = 0, deep_loose = 0;  // ends
+  };
   BlockKernel kernel;
-  std::vector<BlockHead> heads;      // by colour, then number of points
-  std::vector<Range> heads_of;       // per colour
-  std::vector<std::uint32_t> loose;  // rows that stay alone, by colour
-  std::vector<Range> loose_of;       // per colour
+  std::vector<BlockHead> heads;      // by colour, depth, number of points
+  std::vector<std::uint32_t> loose;  // rows that stay alone, by colour, depth
+  std::vector<Color> colors;
   std::vector<Line> numbers;
 
   [[nodiscard]] Real* data() { return reinterpret_cast<Real*>(numbers.data()); }

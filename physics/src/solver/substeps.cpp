@@ -34,10 +34,15 @@ namespace {
 
 // Rows of one colour share no dynamic body, so they may run in any order, or at once.
 template <class Sweep, class Task>
-void for_rows_by_color(WorldState& world, const BlockPass& pass, Sweep sweep, Task&& task) {
+void for_rows_by_color(WorldState& world, const BlockPass& pass, Sweep sweep, Task&& task,
+                       bool only_deep = false) {
   const ContactBlocks& blocks = world.blocks;
-  for (std::size_t color = 0; color < world.colors.size(); ++color) {
-    const ContactBlocks::Range wide = blocks.heads_of[color], loose = blocks.loose_of[color];
+  for (const ContactBlocks::Color& color : blocks.colors) {
+    ContactBlocks::Range wide = color.heads, loose = color.loose;
+    if (only_deep) {
+      wide.end = color.deep_heads;
+      loose.end = color.deep_loose;
+    }
     parallel_for(world, wide.end - wide.begin, tolerance::kBlockGrain,
                  [&](std::uint32_t begin, std::uint32_t end) {
                    sweep(pass, wide.begin + begin, wide.begin + end);
@@ -232,7 +237,7 @@ void fly_body(WorldState& world, std::uint32_t i) {
 }  // namespace
 
 void run_substeps(WorldState& world) {
-  const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
+  const int extra_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses - 1 : 0;
   const bool joints = !world.joints.empty();
   const bool newton = world.newton != nullptr && world.newton->count > 0;
   const bool effects = world.effects != nullptr && !world.effects->empty();
@@ -296,13 +301,18 @@ void run_substeps(WorldState& world) {
     if (newton && ledger) charge(world, &EnergyLedger::normal);
     if (joints) relax_joints(world);
     if (ledger) charge(world, &EnergyLedger::joints);
-    for (int i = 1; i <= relax_passes; ++i) {
-      pass.ends_substep = i == relax_passes;
-      for_rows_by_color(world, pass, kernel.relax, [&](ContactRow<Real>& row) {
-        relax_row(world, row, pass.inverse_h);
-        if (pass.ends_substep) close_row(world, row);
-      });
-    }
+    const auto relax = [&](bool ends_substep, bool only_deep) {
+      pass.ends_substep = ends_substep;
+      for_rows_by_color(
+          world, pass, kernel.relax,
+          [&](ContactRow<Real>& row) {
+            relax_row(world, row, pass.inverse_h);
+            if (ends_substep) close_row(world, row);
+          },
+          only_deep);
+    };
+    for (int i = 0; i < extra_passes; ++i) relax(false, true);
+    relax(true, false);
     if (ledger) charge(world, &EnergyLedger::normal);
     bodies.finish([&](std::uint32_t i) { return trapezoid_weight(world, i); },
                   [&](std::uint32_t i) { finish_body(world, i); });

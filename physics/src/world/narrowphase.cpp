@@ -302,6 +302,17 @@ void take_findings(WorldState& world) {
   world.contacts_fit = world.pairs.changes();
 }
 
+void note_depth(WorldState& world, const Contact& contact) {
+  const BodyStore& bodies = world.bodies;
+  if (!world.deep_overlap) world.overlaps_deeply.assign(bodies.dense_count(), 0);
+  world.deep_overlap = true;
+  const Pair& pair = world.pairs[contact.pair];
+  for (const std::uint32_t body : {pair.body_a, pair.body_b}) {
+    const std::uint32_t dense = bodies.info[body].dense;
+    if (bodies.mass[dense].mass > Real(0)) world.overlaps_deeply[dense] = 1;
+  }
+}
+
 void report_contacts(WorldState& world) {
   StepReport& report = world.report;
   report.candidate_pairs = static_cast<std::uint32_t>(world.pairs.size());
@@ -314,7 +325,7 @@ void report_contacts(WorldState& world) {
     for (int k = 0; k < contact.manifold.count; ++k)
       depth = std::max(depth, -contact.manifold.points[k].separation);
     report.largest_penetration = std::max(report.largest_penetration, static_cast<double>(depth));
-    world.deep_overlap |= depth > tolerance::kDeepSlops * world.pairs[contact.pair].slop;
+    if (depth > tolerance::kDeepSlops * world.pairs[contact.pair].slop) note_depth(world, contact);
   }
 }
 

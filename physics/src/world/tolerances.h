@@ -37,8 +37,8 @@ inline constexpr Real kReferencePull = Real(98);
 // not be followed. [Catto 2024]
 inline constexpr Real kStiffestContact = Real(0.25);
 
-// In steps that begin with overlap above this many slops [-] the velocities are relaxed more often,
-// so that what pushes bodies apart does not throw them.
+// The contacts of bodies that begin a step with overlap above this many slops [-] are relaxed more
+// often, so that what pushes bodies apart does not throw them.
 inline constexpr Real kDeepSlops = Real(10);
 inline constexpr int kDeepRelaxPasses = 6;
 

@@ -124,6 +124,7 @@ struct WorldState {
   Real dt = 0, h = 0;                    // [s] step, substep
   Real last_h = 0;                       // [s] substep to which the remembered impulses belong
   bool deep_overlap = false;             // some contact of this step begins far inside
+  std::vector<std::uint8_t> overlaps_deeply;  // per dense body, only then: whether it has one
   Real proxy_dt = 0;                     // [s] step for which the boxes reach ahead
   std::vector<std::uint32_t> row_order;  // contacts by colour
   std::vector<ColorRange> colors;
