@@ -5,6 +5,7 @@
 #include "collision/collide_parts.h"
 #include "world/body_sweep.h"
 #include "world/one_way.h"
+#include "world/recycling.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -208,10 +209,16 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
     return;
   }
   const Real margin = tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
+  if (may_recycle(world, pair, margin)) {
+    recycle(world, pair, static_cast<std::uint32_t>(index), out);
+    found.count = pair.contact_count;
+    return;
+  }
   if (has_parts(a.shape.type) || has_parts(b.shape.type)) {
     collide_pair_of_parts(world, static_cast<std::uint32_t>(index), pair, a, xa, b, xb, margin,
                           out);
     found.count = static_cast<std::uint32_t>(out.size()) - found.first;
+    keep(world, pair, margin, std::span(out).subspan(found.first));
     return;
   }
   Contact& contact = out.emplace_back();
@@ -231,6 +238,7 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
     return;
   }
   found.count = 1;
+  keep(world, pair, margin, std::span(out).last(1));
   for (const Contact& old : contacts_of(pair, world.contacts)) {
     if (old.part != contact.part) continue;
     carry_impulses(contact, old, pair.slop / tolerance::kSlopFraction);

@@ -69,6 +69,7 @@ class PairsOfBody {
     for (const Seen& seen : seen_) {
       Pair& pair = world.pairs[seen.pair];
       pair = remake_pair(world, pair);
+      for (Contact& contact : contacts_of(pair, world.contacts)) contact.kept.margin = Real(-1);
       const Vec shift = cast<Real>(seen.from - reference_of(world, pair));
       if (!(length_squared(shift) > Real(0))) continue;
       for (Contact& contact : contacts_of(pair, world.contacts))

@@ -46,6 +46,18 @@ struct Pair {                            // 64 bytes in f32
   }
 };
 
+struct KeptPose {
+  PosVec x{0, 0, 0};  // [m] centre of mass
+  Rotation q{0, 0, 0, 1};
+};
+// How a manifold was found, from which it is told anew while the bodies hardly move (recycling.h).
+struct KeptManifold {
+  Real margin = -1;  // [m] of the search that found it; negative: it may not be kept
+  KeptPose a, b;     // of the bodies then
+  Vec position[Manifold::kMaxPoints]{};
+  Real separation[Manifold::kMaxPoints]{};
+};
+
 // What readers and events look at lies in front, so that they pass over the rest.
 struct Contact {
   std::uint32_t pair = 0;  // index into the awake pairs, valid within the step
@@ -64,6 +76,7 @@ struct Contact {
   Real normal_impulse[Manifold::kMaxPoints]{};   // [N s] of the last substep: the warm start
   Vec friction_impulse[Manifold::kMaxPoints]{};  // [N s] on B, world axes
   Vec step_friction_impulse[Manifold::kMaxPoints]{};
+  KeptManifold kept;
 };
 
 inline std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {

@@ -105,6 +105,16 @@ void visit_pair(Table& t, Pair& p, std::uint32_t& island) {
 }
 
 template <class Table>
+void visit_kept(Table& t, KeptManifold& k) {
+  t("kept_margin", k.margin);
+  t("kept_a", k.a.x.x, k.a.x.y, k.a.x.z, k.a.q.x, k.a.q.y, k.a.q.z, k.a.q.w);
+  t("kept_b", k.b.x.x, k.b.x.y, k.b.x.z, k.b.q.x, k.b.q.y, k.b.q.z, k.b.q.w);
+  static constexpr const char* kNames[4] = {"kept0", "kept1", "kept2", "kept3"};
+  for (std::size_t i = 0; i < Manifold::kMaxPoints; ++i)
+    t(kNames[i], k.position[i].x, k.position[i].y, k.position[i].z, k.separation[i]);
+}
+
+template <class Table>
 void visit_contact(Table& t, Contact& c) {
   Manifold& m = c.manifold;
   t("part", c.part);
@@ -126,6 +136,7 @@ void visit_contact(Table& t, Contact& c) {
     t(kNames[k][3], f.x, f.y, f.z);
     t(kNames[k][4], s.x, s.y, s.z);
   }
+  visit_kept(t, c.kept);
 }
 
 void add_list(ColumnWriter& out, const char* table, const char* name,

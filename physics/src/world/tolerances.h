@@ -10,6 +10,10 @@ namespace plumb::inline PLUMB_ABI::detail::tolerance {
 // 0.002: 2 mm for a 1 m box. Without it resting points flicker between touching and not.
 inline constexpr Real kSlopFraction = Real(0.002);
 
+// Manifolds are kept, and only moved along, while no point of either body has moved by more than
+// this many slops [-] since they were found: 40 um for a 1 m box.
+inline constexpr Real kRecycleSlops = Real(0.02);
+
 // Contact points are made this many slops before the surfaces meet [-], so that a manifold keeps
 // all its points while a body rocks by less than the slop.
 inline constexpr Real kMarginSlops = Real(4);

@@ -1,0 +1,24 @@
+// Manifolds that are kept: while neither body of a pair has moved to speak of since its manifolds
+// were found, they are found again by moving their points with the bodies, at a tenth of the cost.
+//
+// A point p of the contact is carried by A to p + d_A and by B to p + d_B. So its separation is
+//   s = s0 + n . (d_B - d_A),   d = x - x0 + (Q - 1)(p - x0),   Q the rotation since then,
+// exactly for translations, to second order in the turn otherwise; the normal and the choice of
+// points stay. What lay outside the margin then has come nearer by less than the tolerance.
+#pragma once
+
+#include "world/pair_store.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+struct WorldState;
+
+// Notes from where the contacts of a pair, found just now with `margin` [m], may be kept.
+void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Contact> contacts);
+// Whether the last step's contacts of the pair are still good, for a search with `margin`.
+bool may_recycle(const WorldState& world, const Pair& pair, Real margin);
+// Appends them, told as of now. `index`: of the pair.
+void recycle(const WorldState& world, const Pair& pair, std::uint32_t index,
+             std::vector<Contact>& out);
+
+}  // namespace plumb::inline PLUMB_ABI::detail
