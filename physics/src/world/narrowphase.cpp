@@ -209,8 +209,7 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
     return;
   }
   const Real margin = tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
-  if (may_recycle(world, pair, margin)) {
-    recycle(world, pair, static_cast<std::uint32_t>(index), out);
+  if (recycle(world, pair, static_cast<std::uint32_t>(index), margin, out)) {
     found.count = pair.contact_count;
     return;
   }

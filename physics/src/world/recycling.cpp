@@ -32,6 +32,18 @@ Motion motion_since(const KeptPose& then, const BodyPose& now) {
   return {cast<Real>(now.x - then.x), now.q * conjugate(then.q)};
 }
 
+// Whether the last step's contacts of the pair are still good, for a search with `margin`.
+bool may_recycle(const WorldState& world, const Pair& pair, Real margin) {
+  if (pair.contact_count == 0 || pair.one_way) return false;
+  const KeptManifold& kept = world.contacts[pair.first_contact].kept;
+  const Real tolerance = tolerance::kRecycleSlops * pair.slop;
+  if (!(kept.margin > Real(0)) || margin > kept.margin + tolerance) return false;
+  const BodyInfo& a = world.bodies.info[pair.body_a];
+  const BodyInfo& b = world.bodies.info[pair.body_b];
+  return motion_since(kept.b, world.bodies.pose[b.dense]).at_most(b.radius) <= tolerance &&
+         motion_since(kept.a, world.bodies.pose[a.dense]).at_most(a.radius) <= tolerance;
+}
+
 }  // namespace
 
 void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Contact> contacts) {
@@ -48,19 +60,10 @@ void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Cont
   }
 }
 
-bool may_recycle(const WorldState& world, const Pair& pair, Real margin) {
-  if (pair.contact_count == 0 || pair.one_way) return false;
-  const KeptManifold& kept = world.contacts[pair.first_contact].kept;
-  const Real tolerance = tolerance::kRecycleSlops * pair.slop;
-  if (!(kept.margin > Real(0)) || margin > kept.margin + tolerance) return false;
-  const BodyInfo& a = world.bodies.info[pair.body_a];
-  const BodyInfo& b = world.bodies.info[pair.body_b];
-  return motion_since(kept.b, world.bodies.pose[b.dense]).at_most(b.radius) <= tolerance &&
-         motion_since(kept.a, world.bodies.pose[a.dense]).at_most(a.radius) <= tolerance;
-}
-
-void recycle(const WorldState& world, const Pair& pair, std::uint32_t index,
+bool recycle(const WorldState& world, const Pair& pair, std::uint32_t index, Real margin,
              std::vector<Contact>& out) {
+  if (!may_recycle(world, pair, margin)) return false;
+  const std::size_t first_out = out.size();
   const std::span<const Contact> before = contacts_of(pair, world.contacts);
   const KeptManifold& first = before.front().kept;
   const BodyPose &a = pose_of(world, pair.body_a), &b = pose_of(world, pair.body_b);
@@ -76,11 +79,16 @@ void recycle(const WorldState& world, const Pair& pair, std::uint32_t index,
       const Vec d_b = of_b.of(pair.relative_to_b ? p : p - from_a_to_b);
       ManifoldPoint& point = contact.manifold.points[i];
       point.separation = kept.separation[i] + dot(contact.manifold.normal, d_b - d_a);
+      if (point.separation > margin) {
+        out.resize(first_out);
+        return false;
+      }
       point.position = p + Real(0.5) * (d_a + d_b) - (pair.relative_to_b ? of_b.shift : of_a.shift);
       contact.step_normal_impulse[i] = Real(0);
       contact.step_friction_impulse[i] = {0, 0, 0};
     }
   }
+  return true;
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -15,10 +15,9 @@ struct WorldState;
 
 // Notes from where the contacts of a pair, found just now with `margin` [m], may be kept.
 void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Contact> contacts);
-// Whether the last step's contacts of the pair are still good, for a search with `margin`.
-bool may_recycle(const WorldState& world, const Pair& pair, Real margin);
-// Appends them, told as of now. `index`: of the pair.
-void recycle(const WorldState& world, const Pair& pair, std::uint32_t index,
+// Appends the last step's contacts of the pair, told as of now, where they are what a search with
+// `margin` [m] would find, and returns true; else does nothing. `index`: of the pair.
+bool recycle(const WorldState& world, const Pair& pair, std::uint32_t index, Real margin,
              std::vector<Contact>& out);
 
 }  // namespace plumb::inline PLUMB_ABI::detail
