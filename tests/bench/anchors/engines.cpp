@@ -1,0 +1,22 @@
+#include "bench/anchors/engine.h"
+
+namespace plumb::anchors {
+
+const std::vector<EngineKind>& engine_kinds() {
+  static const std::vector<EngineKind> kinds = [] {
+    std::vector<EngineKind> all = plumb_kinds();
+#ifdef PLUMB_ANCHORS_RUST
+    for (EngineKind& kind : rust_kinds()) all.push_back(std::move(kind));
+#endif
+#ifdef PLUMB_ANCHORS_BULLET
+    all.push_back(bullet_kind());
+#endif
+#ifdef PLUMB_ANCHORS_ODE
+    all.push_back(ode_kind());
+#endif
+    return all;
+  }();
+  return kinds;
+}
+
+}  // namespace plumb::anchors
