@@ -51,8 +51,11 @@ EngineKind bullet_kind();
 #ifdef PLUMB_ANCHORS_ODE
 EngineKind ode_kind();
 #endif
-#ifdef PLUMB_ANCHORS_RUST
-std::vector<EngineKind> rust_kinds();
+#ifdef PLUMB_ANCHORS_RAPIER
+EngineKind rapier_kind();
+#endif
+#ifdef PLUMB_ANCHORS_BOX3D
+EngineKind box3d_kind();
 #endif
 
 }  // namespace plumb::anchors
