@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/anchors/check.h"
-#include "bench/anchors/engine.h"
+#include "bench/anchors/engines/engine.h"
+#include "bench/anchors/judge/check.h"
 
 namespace plumb::anchors {
 

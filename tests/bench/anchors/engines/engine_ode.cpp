@@ -5,7 +5,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "bench/anchors/engine.h"
+#include "bench/anchors/engines/engine.h"
 
 namespace plumb::anchors {
 namespace {

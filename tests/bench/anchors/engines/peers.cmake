@@ -3,7 +3,7 @@
 function(plumb_peer name)
   cmake_parse_arguments(arg "" "" "LIBRARIES;INCLUDES" ${ARGN})
   string(TOUPPER ${name} upper)
-  target_sources(plumb-anchors PRIVATE engine_${name}.cpp)
+  target_sources(plumb-anchors PRIVATE engines/engine_${name}.cpp)
   target_compile_definitions(plumb-anchors PRIVATE PLUMB_ANCHORS_${upper})
   target_include_directories(plumb-anchors SYSTEM PRIVATE ${arg_INCLUDES})
   target_link_libraries(plumb-anchors PRIVATE ${arg_LIBRARIES})
@@ -30,7 +30,7 @@ if(NOT PLUMB_CARGO)
   message(STATUS "Plumb: no cargo, so Rapier and Box3D are not compared")
   return()
 endif()
-set(crate "${CMAKE_CURRENT_SOURCE_DIR}/rapier")
+set(crate "${CMAKE_CURRENT_SOURCE_DIR}/engines/rapier")
 set(PLUMB_CARGO_TARGET_PEERS "$ENV{HOME}/.cache/plumb/cargo-target-peers" CACHE PATH
     "Where cargo builds and keeps Rapier, shared by all builds of this user")
 

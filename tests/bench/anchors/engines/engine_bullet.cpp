@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/anchors/engine.h"
+#include "bench/anchors/engines/engine.h"
 
 namespace plumb::anchors {
 namespace {

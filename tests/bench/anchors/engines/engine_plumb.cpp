@@ -1,6 +1,6 @@
 // Ours, with its default settings, and with the accurate contact solver.
-#include "bench/anchors/engine.h"
-#include "bench/anchors/plumb_world.h"
+#include "bench/anchors/engines/engine.h"
+#include "bench/anchors/engines/plumb_world.h"
 
 namespace plumb::anchors {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "bench/anchors/check.h"
+#include "bench/anchors/judge/check.h"
 #include "support/collision_oracle.h"
 
 namespace plumb::anchors {

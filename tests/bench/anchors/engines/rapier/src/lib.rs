@@ -1,7 +1,9 @@
 //! Rapier behind the C interface of ../rapier_c.h, with its default parameters.
 
 use rapier3d::prelude::*;
+use rapier3d::rayon::{ThreadPool, ThreadPoolBuilder};
 use std::slice::from_raw_parts;
+use std::sync::{Arc, OnceLock};
 
 #[repr(C)]
 pub struct Body {
@@ -63,6 +65,14 @@ fn vector(v: &[f32]) -> Vector {
     Vector::new(v[0], v[1], v[2])
 }
 
+/// The calling thread as a pool of its own, so that one thread hands nothing to another. A thread can
+/// be that only once.
+fn calling_thread() -> Arc<ThreadPool> {
+    static POOL: OnceLock<Arc<ThreadPool>> = OnceLock::new();
+    let make = || ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+    POOL.get_or_init(|| Arc::new(make().expect("a pool"))).clone()
+}
+
 /// A list that may be empty, and then null.
 unsafe fn list<'a, T>(first: *const T, count: usize) -> &'a [T] {
     if count == 0 {
@@ -89,7 +99,11 @@ pub unsafe extern "C" fn plumb_rapier_new(scene: *const Scene, threads: usize) -
 
     let mut world = World { physics: PhysicsWorld::new(), bodies: Vec::new() };
     let physics = &mut world.physics;
-    physics.configure_thread_pool(threads).expect("threads");
+    if threads == 1 {
+        physics.set_thread_pool(Some(calling_thread()));
+    } else {
+        physics.configure_thread_pool(threads).expect("threads");
+    }
     physics.gravity = vector(&scene.gravity);
     for body in bodies {
         let pose = Pose::from_parts(

@@ -1,4 +1,4 @@
-#include "bench/anchors/engine.h"
+#include "bench/anchors/engines/engine.h"
 
 namespace plumb::anchors {
 

@@ -1,4 +1,4 @@
-#include "bench/anchors/check.h"
+#include "bench/anchors/judge/check.h"
 
 #include <algorithm>
 #include <bit>

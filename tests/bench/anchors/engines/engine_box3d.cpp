@@ -1,7 +1,7 @@
 // Box3D with its defaults: 4 substeps, soft contacts; compiled for this processor.
 #include <box3d/box3d.h>
 
-#include "bench/anchors/engine.h"
+#include "bench/anchors/engines/engine.h"
 
 namespace plumb::anchors {
 namespace {

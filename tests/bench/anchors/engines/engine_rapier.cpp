@@ -1,6 +1,6 @@
 // Rapier with its defaults: 4 substeps, soft contacts, eight lanes; compiled for this processor.
-#include "bench/anchors/engine.h"
-#include "bench/anchors/rapier_c.h"
+#include "bench/anchors/engines/engine.h"
+#include "bench/anchors/engines/rapier_c.h"
 
 namespace plumb::anchors {
 namespace {
