@@ -146,14 +146,16 @@ int measure_all(const Options& options) {
       "best of the repeats;\nnoise: worst repeat over best; ratio: to the fastest peer with as "
       "many threads.");
   std::vector<SceneResult> results;
+  bool good = true;
   for (const SceneEntry& entry : catalogue()) {
     if (!options.scenes.empty() && !wanted(options.scenes, entry.name)) continue;
     results.push_back(measure(entry.make(), kinds, options));
     std::fputs(table_of(results.back()).c_str(), stdout);
     std::fputs(profile_of(results.back()).c_str(), stdout);
     std::fflush(stdout);
+    // After every scene: who stops a long run keeps what is done.
+    if (good && !options.csv.empty()) good = write_file(options.csv, csv_of(results));
   }
-  bool good = options.csv.empty() || write_file(options.csv, csv_of(results));
   if (!options.chart.empty()) good = draw(results, options.chart) && good;
   return good ? 0 : 1;
 }
