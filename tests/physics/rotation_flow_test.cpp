@@ -380,9 +380,9 @@ TEST(RotationFlow, SeriesGivesTheSameBitsInEveryLane) {
       set_component(n, axis, a);
       set_component(g, axis, b);
     }
-    expected[lane] = series_turn<8>(direction, turn);
+    expected[lane] = series_turn<8>(direction, turn, sin_cos<double>);
   }
-  const Quaternion<Lanes> q = series_turn<8>(n, g);
+  const Quaternion<Lanes> q = series_turn<8>(n, g, [](Lanes a, Lanes& s, Lanes& c) { sin_cos(a, s, c); });
   for (std::size_t lane = 0; lane < 4; ++lane) {
     EXPECT_EQ(q.x.v[lane], expected[lane].x);
     EXPECT_EQ(q.y.v[lane], expected[lane].y);

@@ -18,6 +18,9 @@ struct StepDiagnostics {
   // Fills StepReport::energy and momentum. Substeps then run on one thread; some 100 ns a row and
   // substep.
   bool ledger = false;
+  // Vectors that the contact solver works with [bit]: 128, 256 or 512, as far as the processor has
+  // them; 1: one row at a time; 0: the longest up to 256. For comparing their speed.
+  int kernel_bits = 0;
 };
 
 // How far this step's result lies from that with twice the substeps, the largest over all bodies.

@@ -32,7 +32,7 @@ constexpr Vector3<T> inverse_rotate(Quaternion<T> q, Vector3<T> v) {
 }
 template <class T>
 Quaternion<T> normalized(Quaternion<T> q) {
-  const T s = T(1) / std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  const T s = T(1) / root_of(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   return {s * q.x, s * q.y, s * q.z, s * q.w};
 }
 template <class T>
@@ -73,6 +73,20 @@ void sin_cos(T a, T& s, T& c) {
   const double sv = (quadrant & 1) != 0 ? cx : sx, cv = (quadrant & 1) != 0 ? sx : cx;
   s = static_cast<T>((quadrant & 2) != 0 ? -sv : sv);
   c = static_cast<T>(((quadrant + 1) & 2) != 0 ? -cv : cv);
+}
+// The same for |a| <= 0.8, for one number or several: Taylor polynomials, to 1 ulp or so.
+inline constexpr Real kSmallAngle = Real(0.8);  // [rad]
+template <class T>
+void sin_cos_of_small(T a, T& s, T& c) {
+  constexpr int kTerms = sizeof(Real) == 4 ? 6 : 10;
+  const T x2 = a * a;
+  T odd = T(1), even = T(1);
+  for (int k = kTerms; k >= 1; --k) {
+    odd = T(1) - T(Real(1) / static_cast<Real>(2 * k * (2 * k + 1))) * x2 * odd;
+    even = T(1) - T(Real(1) / static_cast<Real>((2 * k - 1) * 2 * k)) * x2 * even;
+  }
+  s = a * odd;
+  c = even;
 }
 // The rotation by |v| radians about v (exponential map).
 template <class T>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/precision.h"
+#include "math/choose.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -56,7 +56,7 @@ constexpr T length_squared(Vector3<T> a) {
 }
 template <class T>
 T length(Vector3<T> a) {
-  return std::sqrt(dot(a, a));
+  return root_of(dot(a, a));
 }
 // a / |a|, or `fallback` when |a| is zero (or too small to divide by). The division by the largest
 // component first keeps it right for vectors whose squares under- or overflow.

@@ -5,6 +5,7 @@
 #include "motion/jacobi_flow.h"
 #include "motion/named_integrators.h"
 #include "motion/splitting.h"
+#include "solver/body_kernel.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -101,7 +102,7 @@ void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, 
   }
   switch (method) {
     case RotationMethod::Exact:
-      advance_rotation(q, L, m.inverse_moments, h);
+      if (!turn_by_series(q, L, m.inverse_moments, h)) advance_rotation(q, L, m.inverse_moments, h);
       return;
     case RotationMethod::Jacobi:
       advance_jacobi(q, L, m.inverse_moments, h);

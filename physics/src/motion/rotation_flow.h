@@ -82,18 +82,17 @@ inline constexpr int kMaxPieces = 4096;
 // Square of the tumble rate times step (see above) [rad^2].
 template <class T>
 constexpr T tumble_squared(Vector3<T> n, Vector3<T> g) {
-  const auto magnitude = [](T a) { return a < T(0) ? -a : a; };
-  const T b1 = magnitude(g.z - g.y), b2 = magnitude(g.x - g.z), b3 = magnitude(g.y - g.x);
+  const T b1 = size_of(g.z - g.y), b2 = size_of(g.x - g.z), b3 = size_of(g.y - g.x);
   return b2 * b3 * (n.x * n.x) + b3 * b1 * (n.y * n.y) + b1 * b2 * (n.z * n.z);
 }
 
 // The turn of the body over one step, in its axes at the start: R1 = normalized(R0 * result). Not a
-// unit quaternion. Free of branches, so that T may be a vector of numbers with a sin_cos of its
-// own.
+// unit quaternion. Free of branches, so that T may be several numbers side by side.
 //   n0  direction of L in principal axes, unit (or zero: no turn)
 //   g   h |L| J [rad], with tumble_squared(n0, g) below the square of the order's limit
-template <int Order, class T>
-Quaternion<T> series_turn(Vector3<T> n0, Vector3<T> g) {
+//   sine_and_cosine  (T angle, T& s, T& c)
+template <int Order, class T, class SinCos>
+Quaternion<T> series_turn(Vector3<T> n0, Vector3<T> g, SinCos&& sine_and_cosine) {
   const Vector3<T> b{g.z - g.y, g.x - g.z, g.y - g.x};
   const T c = dot(n0, multiply_each(g, n0));
   const Vector3<T> weight = multiply_each(Vector3<T>{c - g.x, c - g.y, c - g.z}, n0);
@@ -105,7 +104,7 @@ Quaternion<T> series_turn(Vector3<T> n0, Vector3<T> g) {
     for (int j = 1; j <= k; ++j) {
       sum += Vector3<T>{n[j].y * n[k - j].z, n[j].z * n[k - j].x, n[j].x * n[k - j].y};
     }
-    n[k + 1] = multiply_each((T(1) / T(k + 1)) * b, sum);
+    n[k + 1] = multiply_each((T(1) / T(static_cast<float>(k + 1))) * b, sum);
   }
 
   // With X = series of n0.n (X[0] = 1, X[1] = 0) and F = c X - n0.(g * n), which begins at t^2:
@@ -117,13 +116,13 @@ Quaternion<T> series_turn(Vector3<T> n0, Vector3<T> g) {
     T rest = dot(weight, n[k]);
     for (int j = 2; j <= k - 2; ++j) rest = rest - X[j] * W[k - j];
     W[k] = T(0.5) * rest;
-    enclosed = enclosed + (T(1) / T(k + 1)) * W[k];
+    enclosed = enclosed + (T(1) / T(static_cast<float>(k + 1))) * W[k];
   }
 
   Vector3<T> moved = n[Order];  // n1 - n0, small terms first
   for (int k = Order - 1; k >= 1; --k) moved += n[k];
   T sine, cosine;
-  sin_cos(T(0.5) * (c - enclosed), sine, cosine);
+  sine_and_cosine(T(0.5) * (c - enclosed), sine, cosine);
   const Vector3<T> about = sine * n0;
   const Vector3<T> chord = cross(moved, n0);  // n1 x n0
   return Quaternion<T>{about.x, about.y, about.z, cosine} *
@@ -148,7 +147,7 @@ bool split(Vector3<T> L, T& size, Vector3<T>& direction) {
 template <int Order, class T>
 void turn_in_pieces(Quaternion<T>& R, Vector3<T> direction, Vector3<T> g, int pieces) {
   for (int i = 0; i < pieces; ++i) {
-    R = normalized(R * series_turn<Order>(inverse_rotate(R, direction), g));
+    R = normalized(R * series_turn<Order>(inverse_rotate(R, direction), g, sin_cos<T>));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "motion/body_motion.h"
+#include "solver/body_kernel.h"
 #include "solver/contact_row.h"
 #include "world/world_state.h"
 

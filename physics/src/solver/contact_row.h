@@ -27,28 +27,31 @@ namespace plumb::inline PLUMB_ABI::detail {
 
 // Motion within the running step, measured from where it began; the solver's view of a pose.
 struct BodyDelta {
-  Vec dp{0, 0, 0};          // [m]
+  Vec dp{0, 0, 0};  // [m]
+  Real pad = 0;
   Rotation dq{0, 0, 0, 1};  // world axes
 };
 
-// What a body in contact remembers within a step.
+// What a body in contact remembers within a step. Eight times four Reals, so that the wide kernel
+// can read several.
 struct SubstepBody {
   Vec v_start{0, 0, 0};  // [m/s] after the previous substep
+  Real stiffness = 0;    // [rad^2/s^2] of what pulls at it through joints
   Vec L_start{0, 0, 0};  // [kg m^2/s]
-  Vec w_in{0, 0, 0};     // [rad/s] before the rows acted
+  Real pad1 = 0;
+  Vec w_in{0, 0, 0};  // [rad/s] before the rows acted
+  Real pad2 = 0;
+  Vec acceleration{0, 0, 0};  // [m/s^2] from gravity and forces
+  Real pad3 = 0;
   Symmetric3<Real> I{};  // [kg m^2] world axes at the start of the step, as the rows see it
   Symmetric3<Real> I_inverse{};
-  Vec acceleration{0, 0, 0};        // [m/s^2] from gravity and forces
-  Real stiffness = 0;               // [rad^2/s^2] of what pulls at it through joints
-  Real load = 0, sliding_load = 0;  // [N s] normal impulse, and the part of it that slides
-  bool constrained = false;         // some row holds it
-  bool contacts_changed = false;    // the set of loaded points is not that of the last substep
-  bool bounced = false;             // in this substep
-  bool driven = false;              // it touches a surface that runs
-  bool jointed = false;             // some joint holds it
-  bool split = false;               // ... and nothing that hangs on it touches anything
-  bool affected = false;            // some effect acts on it
-  bool balanced = false;            // water or springs hold it, with nothing left over
+  alignas(4 * sizeof(Real)) bool constrained = false;  // some row holds it
+  bool bounced = false;                                // in this substep
+  bool driven = false;                                 // it touches a surface that runs
+  bool jointed = false;                                // some joint holds it
+  bool split = false;     // ... and nothing that hangs on it touches anything
+  bool affected = false;  // some effect acts on it
+  bool balanced = false;  // water or springs hold it, with nothing left over
 };
 
 // Spring-like softness of a contact, from a frequency and a damping ratio [Catto 2024]:
@@ -61,33 +64,30 @@ struct Softness {
 };
 Softness make_softness(Real frequency, Real damping_ratio, Real h);
 
-template <class T>
-struct ContactRow {
-  static constexpr int kMaxPoints = 4;
-  static constexpr std::uint32_t kNoTurning = 0xffffffffu;
-  std::uint32_t body_a = 0, body_b = 0;  // dense; 0: nothing that moves
-  std::uint32_t contact = 0;             // index into the world's contacts
-  int count = 0;
-
-  Vector3<T> n, t1, t2;       // n from A to B
-  Vector3<T> arm_a, arm_b;    // [m] from the centres of mass to c
-  Vector3<T> between;         // [m] from A's centre of mass to B's
-  Vector3<T> advance;         // [m] of B seen from A at which the arms were taken (swept pairs)
-  bool both_dynamic = false;  // then the arms follow the bodies to one common point
+// What the kernel iterates on: nothing but numbers, so that the rows of a block can be turned into
+// lanes. T is one number or W of them side by side, P the points there is room for.
+template <class T, int P>
+struct RowNumbers {
+  static constexpr int kRoom = P;
+  Vector3<T> n, t1, t2;     // n from A to B
+  Vector3<T> arm_a, arm_b;  // [m] from the centres of mass to c
+  Vector3<T> advance;       // [m] of B seen from A at which the arms were taken (swept pairs)
   // The part of the arms that turns with the bodies: a sphere's surface does not, it rolls.
   Vector3<T> core_a, core_b;                  // [m]
   Vector3<T> inverse_mass_a, inverse_mass_b;  // [1/kg] by world axis (locks make them differ)
   Symmetric3<T> inverse_inertia_a, inverse_inertia_b;
   Symmetric3<T> K_normal, K_friction;
-  // Pseudo-inverse of the points' response matrix (upper triangle by rows): all points at once.
-  T block[10] = {};
-  bool has_block = false;
-  T friction = T(0), restitution = T(0);
   Vector3<T> drive{};  // [m/s, m/s, rad/s] of B's surface over A's, added to (x, y, z)
-  std::uint32_t turning = kNoTurning;  // its row of rolling and torsional friction, if any
+  // 1/2 when both bodies are dynamic: then the arms follow them to one common point. Else 0.
+  T common_point = T(0);
+  T friction = T(0);  // [-]
   T bias_rate = T(0), mass_scale = T(1), impulse_scale = T(0);
-  T push_speed = T(0);      // [m/s] limit of the velocity that works off overlap
-  T push_speed_now = T(0);  // [m/s] the same in this substep
+  T push_speed_now = T(0);  // [m/s] limit of the velocity that works off overlap, this substep
+  T negligible = T(0);      // [N s] impulses up to this do not count as load
+  // 1 where `block` holds the pseudo-inverse of the points' response matrix (upper triangle by
+  // rows): all points at once. Else 0.
+  T has_block = T(0);
+  T block[10] = {};
 
   struct Point {
     T a = T(0), b = T(0);                  // [m] place in the contact plane
@@ -97,15 +97,31 @@ struct ContactRow {
     T friction1 = T(0), friction2 = T(0);  // [N s]
     T k11 = T(0), k12 = T(0), k22 = T(0);  // [1/kg] tangential response at this point
     T impulse_sum = T(0), friction1_sum = T(0), friction2_sum = T(0);  // over the step
+    T loaded = T(0);  // 1: it carried load in the last substep
   };
-  Point points[kMaxPoints];
+  Point points[P];
+};
+
+template <class T>
+struct ContactRow : RowNumbers<T, 4> {
+  static constexpr int kMaxPoints = 4;
+  static constexpr std::uint32_t kNoTurning = 0xffffffffu;
+  std::uint32_t body_a = 0, body_b = 0;  // dense; 0: nothing that moves
+  std::uint32_t contact = 0;             // index into the world's contacts
+  int count = 0;
+  bool in_block = false;  // the wide kernel has it in this step (contact_blocks.h)
+
+  Vector3<T> between;                  // [m] from A's centre of mass to B's
+  bool both_dynamic = false;
+  T restitution = T(0);
+  std::uint32_t turning = kNoTurning;  // its row of rolling and torsional friction, if any
+  T push_speed = T(0);  // [m/s] limit of the velocity that works off overlap, of most substeps
 
   bool exact_spheres = false;            // both are spheres about their centres of mass
   T radius_a = T(0), radius_b = T(0);    // [m] then
   T surface_a = T(0), surface_b = T(0);  // [m] radius of the rounded shapes, from core to surface
   T approach_speed = T(0);               // [m/s] when the step began, largest over the points
   T cut_unit = T(0);                     // [m/s] |relative acceleration| h: unit of the bounce cuts
-  unsigned loaded = 0;                   // bit i: point i carried load in the last substep
   bool skip = false;                     // a bounce takes care of it in this substep
   bool keeps_apart = false;              // it bounced off in this substep: approach is stopped
   bool at_rest = false;

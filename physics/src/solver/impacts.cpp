@@ -309,7 +309,7 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
       const Real determinant = p.k11 * p.k22 - p.k12 * p.k12, trace = p.k11 + p.k22;
       if (!(trace > Real(0))) continue;
       const Real v1 = dot(t1, v), v2 = dot(t2, v);
-      const bool regular = determinant > kSingularFor<Real> * trace * trace;
+      const bool regular = determinant > kSingular * trace * trace;
       Real f1 = p.l_1 - (regular ? (p.k22 * v1 - p.k12 * v2) / determinant : v1 / trace);
       Real f2 = p.l_2 - (regular ? (p.k11 * v2 - p.k12 * v1) / determinant : v2 / trace);
       const Real limit = row.friction * p.l_n, size = std::sqrt(f1 * f1 + f2 * f2);

@@ -22,16 +22,9 @@ Softness make_softness(Real frequency, Real damping_ratio, Real h) {
   return {w / a1, a2 * a3, a3};
 }
 
-unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row) {
-  const auto weight = [&](std::uint32_t i) {
-    return world.bodies.mass[i].mass * length(world.substep[i].acceleration);
-  };
-  const Real negligible =
-      tolerance::kLoadedFraction * world.h * std::max(weight(row.body_a), weight(row.body_b));
-  unsigned loaded = 0;
+void mark_loaded_points(ContactRow<Real>& row) {
   for (int i = 0; i < row.count; ++i)
-    if (row.points[i].impulse > negligible) loaded |= 1u << i;
-  return loaded;
+    row.points[i].loaded = row.points[i].impulse > row.negligible ? Real(1) : Real(0);
 }
 
 namespace {
@@ -119,7 +112,7 @@ void make_block(ContactRow<Real>& row) {
     row.block[0] = a11 / determinant;
     row.block[1] = -a01 / determinant;
     row.block[kStride[1]] = a00 / determinant;
-    row.has_block = true;
+    row.has_block = Real(1);
     return;
   }
   if (row.count < 3) return;
@@ -139,7 +132,7 @@ void make_block(ContactRow<Real>& row) {
     h[i] = gram_inverse * Vec{Real(1), row.points[i].b, -row.points[i].a};
   for (int i = 0; i < row.count; ++i)
     for (int j = i; j < row.count; ++j) row.block[kStride[i] + j - i] = dot(h[i], K_inverse * h[j]);
-  row.has_block = true;
+  row.has_block = Real(1);
 }
 
 // `arm`: of the contact from the body's centre of mass; `outward`: from the collider.
@@ -179,6 +172,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const bool a_moves = bodies.mass[row.body_a].mass > Real(0);
   const bool b_moves = bodies.mass[row.body_b].mass > Real(0);
   row.both_dynamic = a_moves && b_moves;
+  row.common_point = row.both_dynamic ? Real(0.5) : Real(0);
   Real gap = 0;  // between the surfaces, when the manifold was made
   for (int i = 0; i < row.count; ++i)
     gap += contact.manifold.points[i].separation - contact.advanced_gap;
@@ -248,7 +242,12 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   // Bodies that do not move in this step are all the world itself, dense 0.
   if (row.body_a >= bodies.awake_end) row.body_a = 0;
   if (row.body_b >= bodies.awake_end) row.body_b = 0;
-  row.loaded = loaded_points(world, row);
+  const auto weight = [&](std::uint32_t i) {
+    return world.bodies.mass[i].mass * length(world.substep[i].acceleration);
+  };
+  row.negligible =
+      tolerance::kLoadedFraction * world.h * std::max(weight(row.body_a), weight(row.body_b));
+  mark_loaded_points(row);
 }
 
 // Gives the rows of pairs that resist turning their own; one test a step where nothing does.
@@ -273,6 +272,7 @@ void build_rows(WorldState& world) {
   world.substep.resize(bodies.dense_count());
   world.delta[0] = {};
   world.substep[0] = {};
+  world.contacts_changed.assign(bodies.dense_count(), 0);
   // Bodies first: what a row reads of them, and which of them are held by a row.
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {

@@ -18,6 +18,7 @@
 #include "solver/contact_kernel.h"
 #include "solver/joints/joint_stages.h"
 #include "solver/newton/newton_solver.h"
+#include "solver/plain_bodies.h"
 #include "solver/row_end.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
@@ -31,32 +32,41 @@ void run_impacts(WorldState& world);
 
 namespace {
 
-template <class Task>
-void for_awake_bodies(WorldState& world, Task&& task) {
-  const std::uint32_t first = world.bodies.awake_begin;
-  parallel_for(world, world.bodies.awake_end - first, tolerance::kBodyGrain,
-               [&](std::uint32_t begin, std::uint32_t end) {
-                 for (std::uint32_t i = first + begin; i < first + end; ++i) task(i);
-               });
-}
-
 // Rows of one colour share no dynamic body, so they may run in any order, or at once.
-template <class Task>
-void for_rows_by_color(WorldState& world, Task&& task) {
-  for (const ColorRange color : world.colors) {
-    parallel_for(world, color.end - color.begin, tolerance::kRowGrain,
+template <class Sweep, class Task>
+void for_rows_by_color(WorldState& world, const BlockPass& pass, Sweep sweep, Task&& task) {
+  const ContactBlocks& blocks = world.blocks;
+  for (std::size_t color = 0; color < world.colors.size(); ++color) {
+    const ContactBlocks::Range wide = blocks.heads_of[color], loose = blocks.loose_of[color];
+    parallel_for(world, wide.end - wide.begin, tolerance::kBlockGrain,
                  [&](std::uint32_t begin, std::uint32_t end) {
-                   for (std::uint32_t i = color.begin + begin; i < color.begin + end; ++i)
-                     task(world.rows[i]);
+                   sweep(pass, wide.begin + begin, wide.begin + end);
+                 });
+    parallel_for(world, loose.end - loose.begin, tolerance::kRowGrain,
+                 [&](std::uint32_t begin, std::uint32_t end) {
+                   for (std::uint32_t i = loose.begin + begin; i < loose.begin + end; ++i)
+                     task(world.rows[blocks.loose[i]]);
                  });
   }
+}
+
+BlockPass pass_over_blocks(WorldState& world) {
+  static_assert(sizeof(BodyVelocity) == 8 * sizeof(Real) && sizeof(BodyDelta) == 8 * sizeof(Real));
+  BlockPass pass;
+  pass.heads = world.blocks.heads.data();
+  pass.numbers = world.blocks.data();
+  pass.velocity = &world.bodies.velocity.data()->v.x;
+  pass.delta = &world.delta.data()->dp.x;
+  pass.contacts_changed = world.contacts_changed.data();
+  pass.inverse_h = Real(1) / world.h;
+  return pass;
 }
 
 RowVelocities<Real> read_velocities(const WorldState& world, const ContactRow<Real>& row) {
   const BodyVelocity& a = world.bodies.velocity[row.body_a];
   const BodyVelocity& b = world.bodies.velocity[row.body_b];
   RowVelocities<Real> u{a.v, a.w, b.v, b.w, {}, {}};
-  place_arms(row, world.delta[row.body_a], world.delta[row.body_b], u);
+  place_arms(row, world.delta[row.body_a].dp, world.delta[row.body_b].dp, u);
   return u;
 }
 // Bodies that are not dynamic may stand in many rows of a colour; they are never written.
@@ -93,12 +103,11 @@ class RowCharge {
 // Bodies that only joints hold have a loop of their own (joints/joint_flight.cpp).
 bool in_contact_loop(const SubstepBody& s) { return s.constrained && !s.split; }
 
-void drift(WorldState& world, std::uint32_t i) {
-  SubstepBody& s = world.substep[i];
-  if (in_contact_loop(s)) {
+void drift_body(WorldState& world, std::uint32_t i) {
+  if (in_contact_loop(world.substep[i])) {
     drift(world, i, world.h);
-    s.load = Real(0);
-    s.sliding_load = Real(0);
+    world.bodies.velocity[i].load = Real(0);
+    world.bodies.velocity[i].sliding_load = Real(0);
   } else if (!(world.bodies.mass[i].mass > Real(0))) {  // kinematic: as told
     BodyDelta& delta = world.delta[i];
     delta.dp += world.h * world.bodies.velocity[i].v;
@@ -106,24 +115,30 @@ void drift(WorldState& world, std::uint32_t i) {
   }
 }
 
-void finish_substep(WorldState& world, std::uint32_t i) {
+// How much of what the rows took from the velocities counts backwards [s]; ends the substep's notes.
+Real trapezoid_weight(WorldState& world, std::uint32_t i) {
+  SubstepBody& s = world.substep[i];
+  const bool changed = world.contacts_changed[i] != 0;
+  world.contacts_changed[i] = 0;
+  s.bounced = false;
+  if (changed || s.jointed) return Real(0);
+  const BodyVelocity& velocity = world.bodies.velocity[i];
+  const Real theta = velocity.load > Real(0) ? velocity.sliding_load / velocity.load : Real(1);
+  return Real(0.5) * world.h * theta;
+}
+
+void finish_body(WorldState& world, std::uint32_t i) {
   SubstepBody& s = world.substep[i];
   if (!in_contact_loop(s)) return;
   collect_momentum(world, i);
-  const bool changed = s.contacts_changed;
-  s.contacts_changed = false;
-  s.bounced = false;
-  if (changed || s.jointed) return;
-  const Real theta = s.load > Real(0) ? s.sliding_load / s.load : Real(1);
-  const Real weight = Real(0.5) * world.h * theta;
+  const Real weight = trapezoid_weight(world, i);
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
-  if (length_squared(lost) > Real(0) && keeps_momentum(world.settings.rotation)) {
-    const Vec turn =
-        weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost);
-    delta.dq = normalized(from_rotation_vector(turn) * delta.dq);
-  }
+  if (keeps_momentum(world.settings.rotation))
+    delta.dq = turned_further(
+        delta.dq,
+        weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost));
 }
 
 // Rolling and torsional friction of a row that has it. Returns whether it turns nevertheless.
@@ -172,12 +187,16 @@ void store_impulses(WorldState& world) {
                });
 }
 
+bool flies(const SubstepBody& s, const BodyMass& mass) {
+  return !s.constrained && !s.affected && mass.mass > Real(0);
+}
+
 // Bodies that no row holds fly the whole step at once, exactly: x = v t + a t^2/2 (or its damped
 // form); half the torque, the torque-free flow, the other half.
-void fly(WorldState& world, std::uint32_t i) {
+void fly_body(WorldState& world, std::uint32_t i) {
   SubstepBody& s = world.substep[i];
   const BodyMass& mass = world.bodies.mass[i];
-  if (s.constrained || s.affected || !(mass.mass > Real(0))) return;
+  if (!flies(s, mass)) return;
   BodyVelocity& velocity = world.bodies.velocity[i];
   const BodyForce& force = world.bodies.force[i];
   BodyDelta& delta = world.delta[i];
@@ -212,7 +231,6 @@ void fly(WorldState& world, std::uint32_t i) {
 }  // namespace
 
 void run_substeps(WorldState& world) {
-  const Real inverse_h = Real(1) / world.h;
   const int relax_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses : 1;
   const bool joints = !world.joints.empty();
   const bool newton = world.newton != nullptr && world.newton->count > 0;
@@ -224,7 +242,11 @@ void run_substeps(WorldState& world) {
     open_ledger(world);
   }
   if (effects) begin_effects(world);
-  for_awake_bodies(world, [&](std::uint32_t i) { fly(world, i); });
+  fill_blocks(world);
+  const BlockKernel kernel = world.blocks.kernel;
+  BlockPass pass = pass_over_blocks(world);
+  PlainBodies bodies(world);
+  bodies.fly([&](std::uint32_t i) { fly_body(world, i); });
   if (ledger) charge_flight(world);
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
     if (effects) act_effects(world);
@@ -232,7 +254,7 @@ void run_substeps(WorldState& world) {
     if (!world.spinning_rows.empty()) carry_drives(world);
     if (!world.bouncing_rows.empty()) run_impacts(world);
     if (ledger) charge_bounces(world);
-    for_awake_bodies(world, [&](std::uint32_t i) {
+    bodies.kick([&](std::uint32_t i) {
       if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
     });
     if (ledger) charge_kick(world);
@@ -240,7 +262,7 @@ void run_substeps(WorldState& world) {
     if (ledger) charge_joint_flight(world);
     if (joints) warm_start_joints(world);
     if (ledger) charge(world, &EnergyLedger::joints);
-    for_rows_by_color(world, [&](ContactRow<Real>& row) {
+    for_rows_by_color(world, pass, kernel.warm, [&](ContactRow<Real>& row) {
       if (row.skip) return;
       RowVelocities<Real> u = read_velocities(world, row);
       const RowVelocities<Real> before = u;
@@ -252,13 +274,13 @@ void run_substeps(WorldState& world) {
     if (ledger) charge(world, &EnergyLedger::normal);
     if (joints) solve_joints(world);
     if (ledger) charge(world, &EnergyLedger::joints);
-    for_rows_by_color(world, [&](ContactRow<Real>& row) {
+    for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
       if (row.skip) return;
       const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
       RowVelocities<Real> u = read_velocities(world, row);
       Real load = 0, sliding = 0;
       RowCharge charged(world, row, ledger);
-      solve_normal(row, change, inverse_h, true, u);
+      solve_normal(row, change, pass.inverse_h, true, u);
       charged.as(&EnergyLedger::normal, u);
       resist_turning(world, row, true, u);
       solve_friction(row, u, load, sliding);
@@ -267,22 +289,28 @@ void run_substeps(WorldState& world) {
     });
     if (newton) solve_newton_islands(world);
     if (ledger) charge(world, &EnergyLedger::normal);
-    for_awake_bodies(world, [&](std::uint32_t i) { drift(world, i); });
+    bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
     if (ledger) charge_drift(world);
     if (newton) settle_newton_islands(world);
     if (newton && ledger) charge(world, &EnergyLedger::normal);
     if (joints) relax_joints(world);
     if (ledger) charge(world, &EnergyLedger::joints);
-    for (int pass = 0; pass < relax_passes; ++pass)
-      for_rows_by_color(world, [&](ContactRow<Real>& row) { relax_row(world, row, inverse_h); });
-    for_rows_by_color(world, [&](ContactRow<Real>& row) { close_row(world, row); });
+    for (int i = 1; i <= relax_passes; ++i) {
+      pass.ends_substep = i == relax_passes;
+      for_rows_by_color(world, pass, kernel.relax, [&](ContactRow<Real>& row) {
+        relax_row(world, row, pass.inverse_h);
+        if (pass.ends_substep) close_row(world, row);
+      });
+    }
     if (ledger) charge(world, &EnergyLedger::normal);
-    for_awake_bodies(world, [&](std::uint32_t i) { finish_substep(world, i); });
+    bodies.finish([&](std::uint32_t i) { return trapezoid_weight(world, i); },
+                  [&](std::uint32_t i) { finish_body(world, i); });
     if (effects) settle_effects(world);
     if (ledger) charge_finish(world);
   }
   world.jobs = jobs;
   if (effects) end_effects(world);
+  empty_blocks(world);
   store_impulses(world);
   if (joints) store_joints(world);
   if (newton) report_newton_islands(world);

@@ -51,7 +51,7 @@ inline bool solve_turning(const ContactRow<T>& row, TurningRow<T>& turning, RowV
     const T determinant = turning.k11 * turning.k22 - turning.k12 * turning.k12;
     if (!(k > T(0))) return turns;
     T m1 = turning.impulse1 - w1 / k, m2 = turning.impulse2 - w2 / k;
-    if (determinant > kSingularFor<T> * k * k) {
+    if (determinant > kSingular * k * k) {
       const T s1 = turning.impulse1 - (turning.k22 * w1 - turning.k12 * w2) / determinant;
       const T s2 = turning.impulse2 - (turning.k11 * w2 - turning.k12 * w1) / determinant;
       if (s1 * s1 + s2 * s2 <= limit * limit) m1 = s1, m2 = s2;

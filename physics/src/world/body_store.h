@@ -18,9 +18,9 @@ inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max()
 // Bytes per record in f32 / f64 stand behind the name.
 struct BodyVelocity {  // 32 / 64
   Vec v{0, 0, 0};      // [m/s] centre of mass
-  Real pad0 = 0;
-  Vec w{0, 0, 0};  // [rad/s] world axes
-  Real pad1 = 0;
+  Real load = 0;       // [N s] normal impulse in this substep; scratch of the solver
+  Vec w{0, 0, 0};         // [rad/s] world axes
+  Real sliding_load = 0;  // [N s] the part of it that slides
 };
 
 struct BodyPose {          // 28 / 56 (f32d: 40)
@@ -30,8 +30,9 @@ struct BodyPose {          // 28 / 56 (f32d: 40)
 
 // The stored state of rotation is the angular momentum in world axes, not the angular velocity:
 // free motion leaves it untouched, bit for bit.
-struct BodyMomentum {  // 12 / 24
+struct BodyMomentum {  // 16 / 32
   Vec L{0, 0, 0};      // [kg m^2/s] about the centre of mass, world axes
+  Real pad = 0;
 };
 
 struct BodyMass {                // 48 / 96

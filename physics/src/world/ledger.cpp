@@ -216,7 +216,7 @@ void charge_finish(WorldState& world) {
   const double h = static_cast<double>(world.h);
   for_dynamic(world, [&](std::uint32_t i) {
     const SubstepBody& s = world.substep[i];
-    if (!in_loop(s) || s.jointed || !(s.load > Real(0))) return;
+    if (!in_loop(s) || s.jointed || !(world.bodies.velocity[i].load > Real(0))) return;
     const Sum pushed = h * wide(book.drifted[i] - world.bodies.velocity[i].v);
     book.energy.recovery -=
         static_cast<double>(world.bodies.mass[i].mass) * dot(gravity_on(world, i), pushed);

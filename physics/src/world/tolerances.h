@@ -96,6 +96,7 @@ inline constexpr unsigned kBodyGrain = 256;
 inline constexpr unsigned kPairGrain = 64;
 // A search along a path takes microseconds: few in a chunk.
 inline constexpr unsigned kSweepGrain = 4;
+inline constexpr unsigned kBlockGrain = 16;  // blocks of up to 16 rows
 inline constexpr unsigned kRowGrain = 64;
 
 }  // namespace plumb::inline PLUMB_ABI::detail::tolerance

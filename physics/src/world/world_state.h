@@ -9,6 +9,7 @@
 #include "effects/effect_store.h"
 #include "math/eigen_bridge.h"
 #include "plumb/world.h"
+#include "solver/contact_blocks.h"
 #include "solver/contact_row.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_row.h"
@@ -89,6 +90,9 @@ struct ColorRange {
   std::uint32_t begin, end;
 };
 
+// How a body goes through the step (solver/plain_bodies.h).
+enum class BodyWay : std::uint8_t { Other, Held, Free };
+
 struct WorldState {
   WorldSettings settings;
   BodyStore bodies;
@@ -130,6 +134,9 @@ struct WorldState {
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
   std::vector<BodyDelta> delta;                // per dense index
   std::vector<SubstepBody> substep;            // per dense index
+  std::vector<std::uint8_t> contacts_changed;  // per dense index: other points carry load now
+  std::vector<BodyWay> body_ways;              // per dense index
+  ContactBlocks blocks;
   std::vector<std::uint64_t> color_mask;       // per dense index
   std::vector<std::uint32_t> parents;          // union-find, per slot
   std::vector<std::uint64_t> new_keys;
@@ -185,8 +192,8 @@ void collide_pairs(WorldState& world);
 void find_newton_islands(WorldState& world);
 void color_contacts(WorldState& world);
 void build_rows(WorldState& world);
-// Bit i: point i carries more than a negligible normal impulse.
-unsigned loaded_points(const WorldState& world, const ContactRow<Real>& row);
+// Notes which points carry more than a negligible normal impulse.
+void mark_loaded_points(ContactRow<Real>& row);
 void run_substeps(WorldState& world);
 void stop_fast_bodies(WorldState& world);
 void finalize_bodies(WorldState& world);

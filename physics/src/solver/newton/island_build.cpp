@@ -112,7 +112,7 @@ void fill_contact(const WorldState& world, const Solver& solver, Island& island,
   c.t1 = wide(row.t1);
   c.t2 = wide(row.t2);
   RowVelocities<Real> arms{};
-  place_arms(row, world.delta[row.body_a], world.delta[row.body_b], arms);
+  place_arms(row, world.delta[row.body_a].dp, world.delta[row.body_b].dp, arms);
   c.arm_a = wide(arms.arm_a);
   c.arm_b = wide(arms.arm_b);
   c.mu = static_cast<double>(row.friction);

@@ -95,7 +95,7 @@ void settle_island(WorldState& world, Island& island) {
     ContactRow<Real>& row = world.rows[contact.row];
     if (contact.count > 0)
       note_load(world, row, static_cast<Real>(contact.load), static_cast<Real>(contact.sliding));
-    if (contact.rests) row.loaded = loaded_points(world, row);
+    if (contact.rests) mark_loaded_points(row);
     close_row(world, row);
   }
 }

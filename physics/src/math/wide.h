@@ -1,0 +1,192 @@
+// W numbers side by side, each with its own rounding: what is written for one number also serves
+// for W of them, with the same bits in every lane.
+//
+// Only + - * / sqrt, comparison and selection: operations that IEEE 754 rounds in one way only.
+// Code that shall run wide chooses with select() where it would branch, and asks any() or all()
+// before it leaves something out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "math/choose.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+template <class R, int W>
+struct Lanes {
+  typedef R Reals __attribute__((vector_size(W * sizeof(R))));
+  using Integer = std::conditional_t<sizeof(R) == 4, std::int32_t, std::int64_t>;
+  typedef Integer Bits __attribute__((vector_size(W * sizeof(R))));
+};
+
+template <class R, int W>
+struct WideMask {
+  typename Lanes<R, W>::Bits bits;  // all ones or all zeros in each lane
+};
+template <class R, int W>
+WideMask<R, W> operator&(WideMask<R, W> a, WideMask<R, W> b) {
+  return {a.bits & b.bits};
+}
+template <class R, int W>
+WideMask<R, W> operator|(WideMask<R, W> a, WideMask<R, W> b) {
+  return {a.bits | b.bits};
+}
+template <class R, int W>
+WideMask<R, W>& operator&=(WideMask<R, W>& a, WideMask<R, W> b) {
+  return a = a & b;
+}
+template <class R, int W>
+WideMask<R, W> negate(WideMask<R, W> a) {
+  return {~a.bits};
+}
+// Bit i: lane i.
+template <class R, int W>
+std::uint32_t bits_of(WideMask<R, W> a) {
+#if defined(__AVX__)
+  if constexpr (W * sizeof(R) == 32 && sizeof(R) == 4)
+    return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)a.bits));
+  if constexpr (W * sizeof(R) == 32 && sizeof(R) == 8)
+    return static_cast<std::uint32_t>(_mm256_movemask_pd((__m256d)a.bits));
+#endif
+#if defined(__SSE2__)
+  if constexpr (W * sizeof(R) == 16 && sizeof(R) == 4)
+    return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)a.bits));
+  if constexpr (W * sizeof(R) == 16 && sizeof(R) == 8)
+    return static_cast<std::uint32_t>(_mm_movemask_pd((__m128d)a.bits));
+#endif
+#if defined(__AVX512DQ__)
+  if constexpr (W * sizeof(R) == 64 && sizeof(R) == 4)
+    return static_cast<std::uint32_t>(_mm512_movepi32_mask((__m512i)a.bits));
+  if constexpr (W * sizeof(R) == 64 && sizeof(R) == 8)
+    return static_cast<std::uint32_t>(_mm512_movepi64_mask((__m512i)a.bits));
+#endif
+  std::uint32_t out = 0;
+  for (int i = 0; i < W; ++i) out |= (a.bits[i] != 0 ? 1u : 0u) << i;
+  return out;
+}
+template <class R, int W>
+bool any(WideMask<R, W> a) {
+  return bits_of(a) != 0;
+}
+template <class R, int W>
+bool all(WideMask<R, W> a) {
+  return bits_of(a) == (1u << W) - 1u;
+}
+
+template <class R, int W>
+struct Wide {
+  typename Lanes<R, W>::Reals v;
+  Wide() = default;
+  Wide(R all) : v(all - typename Lanes<R, W>::Reals{}) {}  // NOLINT: as a plain number would
+  explicit Wide(typename Lanes<R, W>::Reals lanes) : v(lanes) {}
+};
+
+template <class R, int W>
+struct MaskFor<Wide<R, W>> {
+  using Type = WideMask<R, W>;
+};
+
+template <class R, int W>
+Wide<R, W> operator+(Wide<R, W> a, Wide<R, W> b) {
+  return Wide<R, W>(a.v + b.v);
+}
+template <class R, int W>
+Wide<R, W> operator-(Wide<R, W> a, Wide<R, W> b) {
+  return Wide<R, W>(a.v - b.v);
+}
+template <class R, int W>
+Wide<R, W> operator*(Wide<R, W> a, Wide<R, W> b) {
+  return Wide<R, W>(a.v * b.v);
+}
+template <class R, int W>
+Wide<R, W> operator/(Wide<R, W> a, Wide<R, W> b) {
+  return Wide<R, W>(a.v / b.v);
+}
+template <class R, int W>
+Wide<R, W> operator-(Wide<R, W> a) {
+  return Wide<R, W>(-a.v);
+}
+template <class R, int W>
+Wide<R, W>& operator+=(Wide<R, W>& a, Wide<R, W> b) {
+  return a = a + b;
+}
+template <class R, int W>
+Wide<R, W>& operator-=(Wide<R, W>& a, Wide<R, W> b) {
+  return a = a - b;
+}
+template <class R, int W>
+WideMask<R, W> operator<(Wide<R, W> a, Wide<R, W> b) {
+  return {(typename Lanes<R, W>::Bits)(a.v < b.v)};
+}
+template <class R, int W>
+WideMask<R, W> operator>(Wide<R, W> a, Wide<R, W> b) {
+  return {(typename Lanes<R, W>::Bits)(a.v > b.v)};
+}
+template <class R, int W>
+Wide<R, W> select(WideMask<R, W> condition, Wide<R, W> yes, Wide<R, W> no) {
+  return Wide<R, W>(condition.bits ? yes.v : no.v);
+}
+
+template <class R, int W>
+Wide<R, W> root_of(Wide<R, W> a) {
+#if defined(__AVX512F__)
+  if constexpr (W * sizeof(R) == 64 && sizeof(R) == 4)
+    return Wide<R, W>((typename Lanes<R, W>::Reals)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.v));
+  if constexpr (W * sizeof(R) == 64 && sizeof(R) == 8)
+    return Wide<R, W>((typename Lanes<R, W>::Reals)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v));
+#endif
+#if defined(__AVX__)
+  if constexpr (W * sizeof(R) == 32 && sizeof(R) == 4)
+    return Wide<R, W>((typename Lanes<R, W>::Reals)_mm256_sqrt_ps((__m256)a.v));
+  if constexpr (W * sizeof(R) == 32 && sizeof(R) == 8)
+    return Wide<R, W>((typename Lanes<R, W>::Reals)_mm256_sqrt_pd((__m256d)a.v));
+#endif
+#if defined(__SSE2__)
+  if constexpr (W * sizeof(R) == 16 && sizeof(R) == 4)
+    return Wide<R, W>((typename Lanes<R, W>::Reals)_mm_sqrt_ps((__m128)a.v));
+  if constexpr (W * sizeof(R) == 16 && sizeof(R) == 8)
+    return Wide<R, W>((typename Lanes<R, W>::Reals)_mm_sqrt_pd((__m128d)a.v));
+#endif
+  for (int i = 0; i < W; ++i) a.v[i] = std::sqrt(a.v[i]);
+  return a;
+}
+
+// --- records to lanes and back -------------------------------------------------------------------
+
+// Four numbers from each of W records, turned so that each of the four becomes one Wide. Record i
+// begins at base + index[i] * stride.
+template <class R, int W>
+struct Quad {
+  Wide<R, W> x, y, z, w;
+};
+template <class R, int W>
+Quad<R, W> gather_quad(const R* base, std::size_t stride, const std::uint32_t* index) {
+  Quad<R, W> out;
+  for (int i = 0; i < W; ++i) {
+    const R* record = base + index[i] * stride;
+    out.x.v[i] = record[0];
+    out.y.v[i] = record[1];
+    out.z.v[i] = record[2];
+    out.w.v[i] = record[3];
+  }
+  return out;
+}
+// Writes the records whose bit is set in `which`.
+template <class R, int W>
+void scatter_quad(const Quad<R, W>& in, R* base, std::size_t stride, const std::uint32_t* index,
+                  std::uint32_t which) {
+  for (int i = 0; i < W; ++i) {
+    if ((which >> i & 1u) == 0) continue;
+    R* record = base + index[i] * stride;
+    record[0] = in.x.v[i];
+    record[1] = in.y.v[i];
+    record[2] = in.z.v[i];
+    record[3] = in.w.v[i];
+  }
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

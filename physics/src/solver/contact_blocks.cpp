@@ -1,0 +1,176 @@
+#include "solver/contact_blocks.h"
+
+#include <cstring>
+
+#include "world/tolerances.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+using Numbers = RowNumbers<Real, ContactRow<Real>::kMaxPoints>;
+
+// [Real] what stands before the points, and what one point takes.
+constexpr std::size_t kPointReals = sizeof(Numbers::Point) / sizeof(Real);
+constexpr std::size_t kHeadReals =
+    sizeof(Numbers) / sizeof(Real) - Numbers::kRoom * kPointReals;
+constexpr std::size_t reals_of(int points) {
+  return kHeadReals + static_cast<std::size_t>(points) * kPointReals;
+}
+// Below this many rows a block is not worth its empty lanes.
+constexpr std::size_t kFewestRows = 2;
+
+// Bounces look at all rows of the bodies that may bounce, and change them.
+std::vector<std::uint8_t> bodies_that_bounce(const WorldState& world) {
+  std::vector<std::uint8_t> bounces;
+  if (world.bouncing_rows.empty()) return bounces;
+  bounces.assign(world.bodies.dense_count(), 0);
+  for (const std::uint32_t k : world.bouncing_rows) {
+    const ContactRow<Real>& row = world.rows[k];
+    if (world.substep[row.body_a].constrained) bounces[row.body_a] = 1;
+    if (world.substep[row.body_b].constrained) bounces[row.body_b] = 1;
+  }
+  return bounces;
+}
+
+bool fits_block(const WorldState& world, const std::vector<std::uint8_t>& bounces,
+                const ContactRow<Real>& row) {
+  if (!bounces.empty() && (bounces[row.body_a] | bounces[row.body_b]) != 0) return false;
+  if (row.restitution > Real(0) || row.turning != ContactRow<Real>::kNoTurning) return false;
+  if (world.counts.driven > 0 && world.pairs[world.contacts[row.contact].pair].driven) return false;
+  return true;
+}
+
+const Real* numbers_of(const ContactRow<Real>& row) {
+  return reinterpret_cast<const Real*>(static_cast<const Numbers*>(&row));
+}
+Real* numbers_of(ContactRow<Real>& row) {
+  return reinterpret_cast<Real*>(static_cast<Numbers*>(&row));
+}
+
+// Calls task(row, lane) for the rows of a block.
+template <class Rows, class Task>
+void for_lanes(Rows& rows, const BlockHead& head, int lanes, Task&& task) {
+  for (int i = 0; i < lanes; ++i)
+    if ((head.lanes >> i & 1u) != 0) task(rows[head.row[i]], i);
+}
+
+class Sorter {
+ public:
+  explicit Sorter(WorldState& world)
+      : world_(world), blocks_(world.blocks), bounces_(bodies_that_bounce(world)) {}
+
+  void sort() {
+    blocks_.heads.clear();
+    blocks_.heads_of.clear();
+    blocks_.loose.clear();
+    blocks_.loose_of.clear();
+    reals_ = 0;
+    for (const ColorRange color : world_.colors) sort_color(color);
+    blocks_.numbers.resize((reals_ * sizeof(Real) + sizeof(ContactBlocks::Line) - 1) /
+                           sizeof(ContactBlocks::Line));
+  }
+
+ private:
+  void sort_color(ColorRange color) {
+    const std::uint32_t first_head = static_cast<std::uint32_t>(blocks_.heads.size());
+    const std::uint32_t first_loose = static_cast<std::uint32_t>(blocks_.loose.size());
+    for (std::uint32_t i = color.begin; i < color.end; ++i) {
+      ContactRow<Real>& row = world_.rows[i];
+      if (blocks_.kernel.lanes > 1 && fits_block(world_, bounces_, row)) {
+        by_points_[row.count - 1].push_back(i);
+      } else {
+        blocks_.loose.push_back(i);
+      }
+    }
+    for (int points = 1; points <= ContactRow<Real>::kMaxPoints; ++points) {
+      std::vector<std::uint32_t>& rows = by_points_[points - 1];
+      const std::size_t lanes = static_cast<std::size_t>(blocks_.kernel.lanes);
+      std::size_t taken = 0;
+      for (; rows.size() - taken >= kFewestRows; taken = std::min(taken + lanes, rows.size()))
+        add_block(points, &rows[taken], std::min(lanes, rows.size() - taken));
+      for (; taken < rows.size(); ++taken) blocks_.loose.push_back(rows[taken]);
+      rows.clear();
+    }
+    blocks_.heads_of.push_back({first_head, static_cast<std::uint32_t>(blocks_.heads.size())});
+    blocks_.loose_of.push_back({first_loose, static_cast<std::uint32_t>(blocks_.loose.size())});
+  }
+
+  void add_block(int points, const std::uint32_t* rows, std::size_t count) {
+    BlockHead& head = blocks_.heads.emplace_back();
+    head.points = static_cast<std::uint32_t>(points);
+    head.numbers = reals_;
+    reals_ += reals_of(points) * static_cast<std::size_t>(blocks_.kernel.lanes);
+    for (std::size_t i = 0; i < count; ++i) {
+      ContactRow<Real>& row = world_.rows[rows[i]];
+      row.in_block = true;
+      head.row[i] = rows[i];
+      head.body_a[i] = row.body_a;
+      head.body_b[i] = row.body_b;
+      head.lanes |= 1u << i;
+      if (world_.substep[row.body_a].constrained) head.writes_a |= 1u << i;
+      if (world_.substep[row.body_b].constrained) head.writes_b |= 1u << i;
+    }
+  }
+
+  WorldState& world_;
+  ContactBlocks& blocks_;
+  std::vector<std::uint8_t> bounces_;  // per dense body; empty where nothing bounces
+  std::vector<std::uint32_t> by_points_[ContactRow<Real>::kMaxPoints];
+  std::size_t reals_ = 0;
+};
+
+template <class Task>
+void for_blocks(WorldState& world, Task&& task) {
+  parallel_for(world, static_cast<std::uint32_t>(world.blocks.heads.size()), tolerance::kBlockGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 for (std::uint32_t i = begin; i < end; ++i) task(world.blocks.heads[i]);
+               });
+}
+
+}  // namespace
+
+BlockKernel choose_block_kernel(int bits) {
+  if (bits > 0 && bits < 128) return {};
+#if defined(__x86_64__) || defined(__i386__)
+  if (bits >= 512 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq"))
+    return block_kernel_512();
+  if ((bits == 0 || bits >= 256) && __builtin_cpu_supports("avx2")) return block_kernel_256();
+#endif
+  return block_kernel_128();
+}
+
+void fill_blocks(WorldState& world) {
+  const StepDiagnostics& looks = world.diagnostics;
+  world.blocks.kernel = looks.ledger ? BlockKernel{} : choose_block_kernel(looks.kernel_bits);
+  Sorter(world).sort();
+  const std::size_t lanes = static_cast<std::size_t>(world.blocks.kernel.lanes);
+  for_blocks(world, [&](const BlockHead& head) {
+    Real* const to = world.blocks.data() + head.numbers;
+    const std::size_t count = reals_of(static_cast<int>(head.points));
+    if (head.lanes != (1u << lanes) - 1u) std::memset(to, 0, count * lanes * sizeof(Real));
+    for_lanes(world.rows, head, static_cast<int>(lanes), [&](const ContactRow<Real>& row, int i) {
+      const Real* const from = numbers_of(row);
+      for (std::size_t k = 0; k < count; ++k) to[k * lanes + static_cast<std::size_t>(i)] = from[k];
+    });
+  });
+}
+
+void empty_blocks(WorldState& world) {
+  const std::size_t lanes = static_cast<std::size_t>(world.blocks.kernel.lanes);
+  for_blocks(world, [&](const BlockHead& head) {
+    const Real* const from = world.blocks.data() + head.numbers;
+    const std::size_t count = reals_of(static_cast<int>(head.points));
+    for_lanes(world.rows, head, static_cast<int>(lanes), [&](ContactRow<Real>& row, int i) {
+      Real* const to = numbers_of(row);
+      for (std::size_t k = kHeadReals; k < count; ++k)
+        to[k] = from[k * lanes + static_cast<std::size_t>(i)];
+      Real load = 0;
+      for (int p = 0; p < row.count; ++p) load += row.points[p].impulse;
+      row.at_rest = load > Real(0);
+    });
+  });
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,41 @@
+// Rows side by side: those of one colour and one number of points, W at a time, with every number
+// of the kernel as W lanes. A row has the same bits in a block as alone, so which rows go into
+// blocks is only a question of speed; those that need more than the plain kernel (bounces, rolling
+// friction, running surfaces, effects, the ledger) stay rows.
+#pragma once
+
+#include <vector>
+
+#include "solver/block_pass.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+struct WorldState;
+
+struct ContactBlocks {
+  struct Range {
+    std::uint32_t begin = 0, end = 0;
+  };
+  struct alignas(64) Line {
+    std::uint8_t bytes[64];
+  };
+  BlockKernel kernel;
+  std::vector<BlockHead> heads;      // by colour, then number of points
+  std::vector<Range> heads_of;       // per colour
+  std::vector<std::uint32_t> loose;  // rows that stay alone, by colour
+  std::vector<Range> loose_of;       // per colour
+  std::vector<Line> numbers;
+
+  [[nodiscard]] Real* data() { return reinterpret_cast<Real*>(numbers.data()); }
+};
+
+// The kernel for vectors of that many bits, or the longest below that this processor has; one row
+// at a time for 0 < bits < 128. 0: as long as pays, at most 256.
+BlockKernel choose_block_kernel(int bits);
+
+// Sorts the rows of this step into blocks and loose ones, and fills the blocks.
+void fill_blocks(WorldState& world);
+// Writes what the blocks' rows have become back to the rows.
+void empty_blocks(WorldState& world);
+
+}  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,0 +1,313 @@
+// The contact kernel over blocks of W rows. Included by one file per vector length, each compiled
+// for its own processors, with PLUMB_VECTOR_BITS set.
+//
+// All templates and inline functions live in an inline namespace of their own, so that the linker
+// never takes a copy compiled for a newer processor for everyone. Only names of block_pass.h are
+// shared, and they are plain memory.
+#include "solver/block_pass.h"
+
+#define PLUMB_JOIN_(a, b, c) a##b##c
+#define PLUMB_JOIN(a, b, c) PLUMB_JOIN_(a, b, c)
+#if defined(PLUMB_PRECISION_F64)
+#define PLUMB_SHARED_ABI f64
+#elif defined(PLUMB_PRECISION_F32D)
+#define PLUMB_SHARED_ABI f32d
+#else
+#define PLUMB_SHARED_ABI f32
+#endif
+#undef PLUMB_ABI
+#define PLUMB_ABI PLUMB_JOIN(PLUMB_SHARED_ABI, _v, PLUMB_VECTOR_BITS)
+
+#include "solver/body_kernel.h"
+#include "solver/contact_kernel.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+namespace shared = plumb::PLUMB_SHARED_ABI::detail;
+using shared::BlockHead;
+using shared::BlockPass;
+using shared::BodyPass;
+
+constexpr int kLanes = PLUMB_VECTOR_BITS / (8 * static_cast<int>(sizeof(Real)));
+static_assert(kLanes <= BlockHead::kMostLanes);
+using Number = Wide<Real, kLanes>;
+
+template <int P>
+struct RowBlock : RowNumbers<Number, P> {
+  static constexpr int count = P;
+};
+
+constexpr std::size_t kRecord = 8;  // [Real] of BodyVelocity and of BodyDelta
+
+// The bodies of a block: read once, written once. Load and sliding load pass through.
+class BlockBodies {
+ public:
+  BlockBodies(const BlockPass& pass, const BlockHead& head)
+      : pass_(pass),
+        head_(head),
+        linear_a_(gather_quad<Real, kLanes>(pass.velocity, kRecord, head.body_a)),
+        angular_a_(gather_quad<Real, kLanes>(pass.velocity + 4, kRecord, head.body_a)),
+        linear_b_(gather_quad<Real, kLanes>(pass.velocity, kRecord, head.body_b)),
+        angular_b_(gather_quad<Real, kLanes>(pass.velocity + 4, kRecord, head.body_b)) {}
+
+  [[nodiscard]] RowVelocities<Number> velocities() const {
+    return {{linear_a_.x, linear_a_.y, linear_a_.z},
+            {angular_a_.x, angular_a_.y, angular_a_.z},
+            {linear_b_.x, linear_b_.y, linear_b_.z},
+            {angular_b_.x, angular_b_.y, angular_b_.z},
+            {},
+            {}};
+  }
+  [[nodiscard]] DeltaOf<Number> delta(const std::uint32_t* body) const {
+    const auto p = gather_quad<Real, kLanes>(pass_.delta, kRecord, body);
+    const auto q = gather_quad<Real, kLanes>(pass_.delta + 4, kRecord, body);
+    return {{p.x, p.y, p.z}, {q.x, q.y, q.z, q.w}};
+  }
+  [[nodiscard]] Vector3<Number> shift(const std::uint32_t* body) const {
+    const auto p = gather_quad<Real, kLanes>(pass_.delta, kRecord, body);
+    return {p.x, p.y, p.z};
+  }
+  void add_load(Number load, Number sliding) {
+    linear_a_.w += load;
+    linear_b_.w += load;
+    angular_a_.w += sliding;
+    angular_b_.w += sliding;
+  }
+  void write(const RowVelocities<Number>& u) const {
+    put(u.va, linear_a_.w, 0, head_.body_a, head_.writes_a);
+    put(u.wa, angular_a_.w, 4, head_.body_a, head_.writes_a);
+    put(u.vb, linear_b_.w, 0, head_.body_b, head_.writes_b);
+    put(u.wb, angular_b_.w, 4, head_.body_b, head_.writes_b);
+  }
+
+ private:
+  void put(const Vector3<Number>& value, Number fourth, std::size_t at, const std::uint32_t* body,
+           std::uint32_t which) const {
+    scatter_quad<Real, kLanes>({value.x, value.y, value.z, fourth}, pass_.velocity + at, kRecord,
+                               body, which);
+  }
+  const BlockPass& pass_;
+  const BlockHead& head_;
+  Quad<Real, kLanes> linear_a_, angular_a_, linear_b_, angular_b_;
+};
+
+template <int P>
+RowBlock<P>& numbers_of(const BlockPass& pass, const BlockHead& head) {
+  return *reinterpret_cast<RowBlock<P>*>(pass.numbers + head.numbers);
+}
+
+template <int P>
+void warm_block(const BlockPass& pass, const BlockHead& head) {
+  const RowBlock<P>& row = numbers_of<P>(pass, head);
+  BlockBodies bodies(pass, head);
+  RowVelocities<Number> u = bodies.velocities();
+  place_arms(row, bodies.shift(head.body_a), bodies.shift(head.body_b), u);
+  warm_start(row, u);
+  bodies.write(u);
+}
+
+template <int P>
+void solve_block_of_rows(const BlockPass& pass, const BlockHead& head) {
+  RowBlock<P>& row = numbers_of<P>(pass, head);
+  BlockBodies bodies(pass, head);
+  RowVelocities<Number> u = bodies.velocities();
+  const DeltaOf<Number> da = bodies.delta(head.body_a), db = bodies.delta(head.body_b);
+  place_arms(row, da.dp, db.dp, u);
+  const SeparationChange<Number> change = separation_change(row, da, db);
+  Number load, sliding;
+  solve_normal(row, change, Number(pass.inverse_h), true, u);
+  solve_friction(row, u, load, sliding);
+  bodies.write(u);
+}
+
+void mark(const BlockPass& pass, const BlockHead& head, std::uint32_t lanes) {
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int i = __builtin_ctz(left);
+    if ((head.writes_a >> i & 1u) != 0) pass.contacts_changed[head.body_a[i]] = 1;
+    if ((head.writes_b >> i & 1u) != 0) pass.contacts_changed[head.body_b[i]] = 1;
+  }
+}
+
+template <int P>
+void relax_block(const BlockPass& pass, const BlockHead& head) {
+  RowBlock<P>& row = numbers_of<P>(pass, head);
+  BlockBodies bodies(pass, head);
+  RowVelocities<Number> u = bodies.velocities();
+  const DeltaOf<Number> da = bodies.delta(head.body_a), db = bodies.delta(head.body_b);
+  place_arms(row, da.dp, db.dp, u);
+  const SeparationChange<Number> change = separation_change(row, da, db);
+  Number load, sliding;
+  solve_normal(row, change, Number(pass.inverse_h), false, u);
+  solve_friction(row, u, load, sliding);
+  bodies.add_load(load, sliding);
+  bodies.write(u);
+  // Between two dynamic bodies the shift of the trapezoid would not keep their angular momentum.
+  mark(pass, head, bits_of(load > Number(0)) & head.writes_a & head.writes_b);
+  if (pass.ends_substep) mark(pass, head, bits_of(end_substep(row)) & head.lanes);
+}
+
+// W consecutive bodies. Which quads of a record hold what: see the records (body_store.h,
+// contact_row.h).
+class Bodies {
+ public:
+  Bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which)
+      : pass_(pass), which_(which) {
+    for (int i = 0; i < kLanes; ++i) index_[i] = first + static_cast<std::uint32_t>(i);
+    const auto v = velocity(0), w = velocity(4);
+    const auto L = read(pass.momentum, 4), J = read(pass.mass + 4, 12);
+    const auto p = read(pass.delta, 8), dq = read(pass.delta + 4, 8);
+    const auto q = read(pass.orientation, pass.pose_stride);
+    lanes = {{v.x, v.y, v.z},          {w.x, w.y, w.z},          {L.x, L.y, L.z},
+             {p.x, p.y, p.z},          {dq.x, dq.y, dq.z, dq.w}, {q.x, q.y, q.z, q.w},
+             {J.x, J.y, J.z}};
+  }
+  BodyLanes<Number> lanes;
+
+  [[nodiscard]] Vector3<Number> acceleration() const { return of_substep(12); }
+  [[nodiscard]] Vector3<Number> v_start() const { return of_substep(0); }
+  [[nodiscard]] Vector3<Number> L_start() const { return of_substep(4); }
+  [[nodiscard]] Vector3<Number> w_in() const { return of_substep(8); }
+  [[nodiscard]] Vector3<Number> torque() const { return three(read(pass_.force + 4, 8)); }
+  [[nodiscard]] Symmetric3<Number> inertia() const {
+    const auto a = read(pass_.substep + 16, 32), b = read(pass_.substep + 20, 32);
+    return {a.x, a.y, a.z, a.w, b.x, b.y};
+  }
+
+  void write_start() const {
+    write(lanes.v, stiffness(), pass_.substep, 32);
+    write(lanes.L, Number(0), pass_.substep + 4, 32);
+  }
+  void write_w_in() const { write(lanes.w, Number(0), pass_.substep + 8, 32); }
+  // Only bodies of `which` from here on.
+  void keep(std::uint32_t which) { which_ &= which; }
+  void write_momentum() const { write(lanes.L, Number(0), pass_.momentum, 4); }
+  void write_velocity() const {
+    write(lanes.v, velocity(0).w, pass_.velocity, 8);
+    write(lanes.w, velocity(4).w, pass_.velocity + 4, 8);
+  }
+  void write_velocity_without_load() const {
+    write(lanes.v, Number(0), pass_.velocity, 8);
+    write(lanes.w, Number(0), pass_.velocity + 4, 8);
+  }
+  void write_delta() const {
+    write(lanes.dp, Number(0), pass_.delta, 8);
+    scatter_quad<Real, kLanes>({lanes.dq.x, lanes.dq.y, lanes.dq.z, lanes.dq.w}, pass_.delta + 4, 8,
+                               index_, which_);
+  }
+  void write_orientation(const Quaternion<Number>& q) const {
+    scatter_quad<Real, kLanes>({q.x, q.y, q.z, q.w}, pass_.orientation, pass_.pose_stride, index_,
+                               which_);
+  }
+
+ private:
+  [[nodiscard]] Quad<Real, kLanes> read(const Real* base, std::size_t stride) const {
+    return gather_quad<Real, kLanes>(base, stride, index_);
+  }
+  [[nodiscard]] static Vector3<Number> three(const Quad<Real, kLanes>& q) {
+    return {q.x, q.y, q.z};
+  }
+  [[nodiscard]] Quad<Real, kLanes> velocity(std::size_t at) const {
+    return read(pass_.velocity + at, 8);
+  }
+  [[nodiscard]] Vector3<Number> of_substep(std::size_t at) const {
+    return three(read(pass_.substep + at, 32));
+  }
+  [[nodiscard]] Number stiffness() const { return read(pass_.substep, 32).w; }
+  void write(const Vector3<Number>& a, Number fourth, Real* base, std::size_t stride) const {
+    scatter_quad<Real, kLanes>({a.x, a.y, a.z, fourth}, base, stride, index_, which_);
+  }
+
+  const BodyPass& pass_;
+  std::uint32_t which_;
+  std::uint32_t index_[kLanes];
+};
+
+void kick_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {
+  Bodies bodies(pass, first, which);
+  bodies.write_start();
+  kick_lanes(bodies.lanes, bodies.acceleration(), bodies.torque(), Number(pass.h));
+  bodies.write_momentum();
+  bodies.write_velocity();
+  bodies.write_w_in();
+}
+
+std::uint32_t drift_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {
+  Bodies bodies(pass, first, which);
+  collect_lanes(bodies.lanes, bodies.inertia(), bodies.w_in());
+  const std::uint32_t done = bits_of(drift_lanes(bodies.lanes, Number(pass.h)));
+  bodies.keep(done);
+  bodies.write_momentum();
+  bodies.write_velocity_without_load();
+  bodies.write_delta();
+  bodies.write_w_in();
+  return which & ~done;
+}
+
+void finish_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which,
+                   const Real* weight) {
+  Bodies bodies(pass, first, which);
+  collect_lanes(bodies.lanes, bodies.inertia(), bodies.w_in());
+  Number weights;
+  for (int i = 0; i < kLanes; ++i) weights.v[i] = weight[i];
+  correct_lanes(bodies.lanes, bodies.v_start(), bodies.L_start(), weights);
+  bodies.write_momentum();
+  bodies.write_delta();
+}
+
+std::uint32_t fly_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {
+  Bodies bodies(pass, first, which);
+  Quaternion<Number> q;
+  const std::uint32_t done = bits_of(
+      fly_lanes(bodies.lanes, q, bodies.acceleration(), bodies.torque(), Number(pass.dt)));
+  bodies.keep(done);
+  bodies.write_momentum();
+  bodies.write_velocity();
+  bodies.write_delta();
+  bodies.write_orientation(q);
+  return which & ~done;
+}
+
+// Calls the version of a block kernel for the block's number of points.
+#define PLUMB_FOR_EACH_BLOCK(kernel)                                              \
+  [](const BlockPass& pass, std::uint32_t begin, std::uint32_t end) {             \
+    for (std::uint32_t i = begin; i < end; ++i) {                                 \
+      const BlockHead& head = pass.heads[i];                                      \
+      switch (head.points) {                                                      \
+        case 1:                                                                   \
+          kernel<1>(pass, head);                                                  \
+          break;                                                                  \
+        case 2:                                                                   \
+          kernel<2>(pass, head);                                                  \
+          break;                                                                  \
+        case 3:                                                                   \
+          kernel<3>(pass, head);                                                  \
+          break;                                                                  \
+        default:                                                                  \
+          kernel<4>(pass, head);                                                  \
+          break;                                                                  \
+      }                                                                           \
+    }                                                                             \
+  }
+
+}  // namespace
+}  // namespace plumb::inline PLUMB_ABI::detail
+
+namespace plumb::PLUMB_SHARED_ABI::detail {
+
+BlockKernel PLUMB_JOIN(block_kernel_, PLUMB_VECTOR_BITS, )() {
+  namespace here = plumb::PLUMB_ABI::detail;
+  using here::relax_block, here::solve_block_of_rows, here::warm_block;
+  BlockKernel kernel;
+  kernel.lanes = here::kLanes;
+  kernel.warm = PLUMB_FOR_EACH_BLOCK(warm_block);
+  kernel.solve = PLUMB_FOR_EACH_BLOCK(solve_block_of_rows);
+  kernel.relax = PLUMB_FOR_EACH_BLOCK(relax_block);
+  kernel.kick = here::kick_bodies;
+  kernel.drift = here::drift_bodies;
+  kernel.finish = here::finish_bodies;
+  kernel.fly = here::fly_bodies;
+  return kernel;
+}
+
+}  // namespace plumb::PLUMB_SHARED_ABI::detail

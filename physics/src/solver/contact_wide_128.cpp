@@ -1,0 +1,3 @@
+// The contact kernel for vectors of 128 bits (contact_wide.h); compiled for processors that have them.
+#define PLUMB_VECTOR_BITS 128
+#include "solver/contact_wide.h"
