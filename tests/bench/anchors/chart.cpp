@@ -39,15 +39,15 @@ std::string chart_script(const std::vector<SceneResult>& results, const std::str
   data += "EOD\n";
   constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
                                      "#56b4e9", "#882255", "#999933", "#44aa99", "#332288"};
-  std::string script = data + "set terminal " + (terminal == "svg" ? "svg" : "pngcairo") +
-                       " size 1500,700 font 'DejaVu Sans,13' background rgb 'white'\nset output '" +
-                       output + "'\n" +
-                       "set title 'The anchor scenes: time of a step, best of the repeats'\n"
-                       "set ylabel 'ms a step'\nset logscale y\nset datafile missing '?'\n"
-                       "set style data histograms\nset style histogram clustered gap 1.5\n"
-                       "set style fill solid 0.9 noborder\nset boxwidth 0.95\n"
-                       "set grid ytics lc rgb '#e0e0e0' lt 1\nset border 3\nset tics nomirror\n"
-                       "set key outside below horizontal Left reverse noenhanced\n";
+  std::string script =
+      data + "set terminal " + (terminal == "svg" ? "svg" : "pngcairo") +
+      " size 1500,700 font 'DejaVu Sans,13' background rgb 'white'\nset output '" + output + "'\n" +
+      "set title 'The anchor scenes: time of a step, best of the repeats'\n"
+      "set ylabel 'ms a step'\nset logscale y\nset datafile missing '?'\n"
+      "set style data histograms\nset style histogram clustered gap 1.5\n"
+      "set style fill solid 0.9 noborder\nset boxwidth 0.95\n"
+      "set bmargin 4\nset grid ytics lc rgb '#e0e0e0' lt 1\nset border 3\nset tics nomirror\n"
+      "set key outside right top vertical Left reverse noenhanced\n";
   script += "plot ";
   for (std::size_t i = 0; i < bars.size(); ++i)
     script += std::string(i == 0 ? "" : ", \\\n     ") + "$times using " + std::to_string(i + 2) +
