@@ -34,7 +34,7 @@ endif()
 
 option(PLUMB_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BENCHMARKS "Build the benchmarks in tests/bench (needs Google Benchmark)" OFF)
-option(PLUMB_PEERS "Benchmark other engines beside Plumb where they are installed (Bullet)" OFF)
+option(PLUMB_PEERS "Benchmark other engines beside Plumb where they can be had (tests/bench)" OFF)
 option(PLUMB_WERROR "Treat warnings as errors" OFF)
 set(PLUMB_SANITIZE "" CACHE STRING "Sanitizers for all targets: address,undefined or thread")
 
