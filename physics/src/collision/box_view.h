@@ -60,6 +60,16 @@ struct BoxView {
     const int axis = m.x >= m.y ? (m.x >= m.z ? 0 : 2) : (m.y >= m.z ? 1 : 2);
     return 2 * axis + (component(along, axis) < Num(0) ? 1 : 0);
   }
+  // The two faces beside the edge that runs most across d from the farthest vertex.
+  void faces_facing(NumVec d, int (&out)[2]) const {
+    const NumVec along{dot(d, axes[0]), dot(d, axes[1]), dot(d, axes[2])};
+    const NumVec m = absolute(along);
+    const int across = m.x <= m.y ? (m.x <= m.z ? 0 : 2) : (m.y <= m.z ? 1 : 2);
+    for (int i = 0; i < 2; ++i) {
+      const int axis = (across + 1 + i) % 3;
+      out[i] = 2 * axis + (component(along, axis) > Num(0) ? 0 : 1);
+    }
+  }
   void face(int index, FacePolygon& out) const {
     const int axis = index / 2;
     const Num sign = index % 2 == 0 ? Num(1) : Num(-1);

@@ -51,7 +51,11 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
     case ShapeType::Cone: {
       if (on.shape.type != ShapeType::Box && on.shape.hull == nullptr) return;
       const PlacedPolyhedron polyhedron(on.shape, on.R, on.p);
-      each([&](SurfaceTriangle& t) { return touch_polyhedron(on, polyhedron, t, contact); });
+      each([&](SurfaceTriangle& t) {
+        if (!touch_polyhedron(on, polyhedron, t, contact)) return false;
+        if (on.rounding > Num(0)) grow_contact(on, polyhedron, contact);
+        return true;
+      });
       return;
     }
     case ShapeType::HalfSpace:

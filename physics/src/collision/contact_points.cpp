@@ -28,6 +28,16 @@ int farthest_from(const ContactCandidates& list, NumVec from, NumVec normal) {
   return chosen;
 }
 
+// In their order, and each name once.
+void take_chosen(const ContactCandidates& list, const bool* chosen, Contacts& out) {
+  for (int i = 0; i < list.count; ++i) {
+    if (!chosen[i]) continue;
+    bool named = false;
+    for (int k = 0; k < out.count; ++k) named |= out.points[k].feature == list.points[i].feature;
+    if (!named) out.points[out.count++] = list.points[i];
+  }
+}
+
 }  // namespace
 
 void choose_points(const ContactCandidates& list, NumVec normal, Num tie, Contacts& out) {
@@ -61,12 +71,39 @@ void choose_points(const ContactCandidates& list, NumVec normal, Num tie, Contac
     }
     chosen[first] = chosen[second] = chosen[third] = chosen[fourth] = true;
   }
+  take_chosen(list, chosen, out);
+}
+
+void choose_ridge_points(const ContactCandidates& list, NumVec normal, Num tie, Num margin,
+                         Contacts& out) {
+  out.normal = normal;
+  out.count = 0;
+  bool chosen[ContactCandidates::kCapacity] = {};
+  const int first = first_of_the_deepest(list, tie);
+  chosen[first] = true;
+  // [m^2] from the deepest, by how near the surfaces are.
+  NumVec arms[ContactCandidates::kCapacity];
   for (int i = 0; i < list.count; ++i) {
-    if (!chosen[i]) continue;
-    bool named = false;
-    for (int k = 0; k < out.count; ++k) named |= out.points[k].feature == list.points[i].feature;
-    if (!named) out.points[out.count++] = list.points[i];
+    const NumVec d = list.points[i].position - list.points[first].position;
+    arms[i] = std::max(margin - list.points[i].separation, Num(0)) * (d - dot(d, normal) * normal);
   }
+  int second = first;
+  for (int i = 0; i < list.count; ++i)
+    if (length_squared(arms[i]) > length_squared(arms[second]) * kSpanGain) second = i;
+  const NumVec along = arms[second], across = cross(normal, along);
+  const auto take_farthest = [&](NumVec direction, bool either_way) {
+    int farthest = first;
+    Num best = Num(0);
+    for (int i = 0; i < list.count; ++i) {
+      const Num reach = either_way ? std::abs(dot(arms[i], direction)) : dot(arms[i], direction);
+      if (reach > best * kSpanGain) best = reach, farthest = i;
+    }
+    chosen[farthest] = true;
+  };
+  take_farthest(along, false);
+  take_farthest(-along, false);
+  take_farthest(across, true);
+  take_chosen(list, chosen, out);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

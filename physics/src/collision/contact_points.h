@@ -48,6 +48,12 @@ struct ContactCandidates {
 // coincide).
 void choose_points(const ContactCandidates& candidates, NumVec normal, Num tie, Contacts& out);
 
+// The same where edges meet, and points lie along them: the deepest, those that hold best against
+// tipping over it along the edges, either way, and across them. A point counts by how much nearer
+// it is than the margin [m], so that nothing is lost with one that goes beyond it.
+void choose_ridge_points(const ContactCandidates& candidates, NumVec normal, Num tie, Num margin,
+                         Contacts& out);
+
 inline NumVec to_num(Vec v) { return cast<Num>(v); }
 inline NumVec to_num(const Vec3& v) {
   return {static_cast<Num>(v.x()), static_cast<Num>(v.y()), static_cast<Num>(v.z())};

@@ -91,6 +91,19 @@ int PlacedPolyhedron::face_facing(NumVec d) const {
   return facing;
 }
 
+void PlacedPolyhedron::faces_facing(NumVec d, int (&out)[2]) const {
+  const int farthest = support_index(d);
+  out[0] = out[1] = 0;
+  Num least = std::numeric_limits<Num>::infinity();
+  for (int i = 0; i < edge_count_; ++i) {
+    const Edge e = edge(i);
+    if (e.v0 != farthest && e.v1 != farthest) continue;
+    const NumVec along = vertices_[e.v1] - vertices_[e.v0];
+    const Num drop = std::abs(dot(along, d)) / length(along);
+    if (drop < least) least = drop, out[0] = e.face_a, out[1] = e.face_b;
+  }
+}
+
 void PlacedPolyhedron::face(int index, FacePolygon& out) const {
   const auto k = static_cast<std::size_t>(index);
   out.name = face_name(index);

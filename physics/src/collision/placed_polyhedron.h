@@ -51,6 +51,8 @@ class PlacedPolyhedron {
   }
   // Of the faces at the farthest vertex, the one that looks most along d.
   [[nodiscard]] int face_facing(NumVec d) const;
+  // The two faces beside the edge that runs most across d from the farthest vertex.
+  void faces_facing(NumVec d, int (&out)[2]) const;
   void face(int index, FacePolygon& out) const;
 
  private:

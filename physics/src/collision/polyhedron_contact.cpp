@@ -20,12 +20,11 @@ bool edges_cross(const ContactAxis& axis) {
   return within(at.a) && within(at.b);
 }
 
-void add_edge_contact(const ContactAxis& axis, Contacts& out) {
+ContactPoint edge_contact(const ContactAxis& axis) {
   const SegmentParameters at = line_parameters(axis.edge_a, axis.edge_b);
   const NumVec on_a = point_at(axis.edge_a, std::clamp(at.a, Num(0), Num(1)));
   const NumVec on_b = point_at(axis.edge_b, std::clamp(at.b, Num(0), Num(1)));
-  out.normal = axis.normal;
-  out.add(Num(0.5) * (on_a + on_b), axis.separation, pair_name(axis.name_a, axis.name_b));
+  return {Num(0.5) * (on_a + on_b), axis.separation, pair_name(axis.name_a, axis.name_b)};
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

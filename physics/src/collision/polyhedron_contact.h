@@ -20,12 +20,12 @@ struct ContactAxis {
 };
 
 // Halfway between the supporting lines of two edges.
-void add_edge_contact(const ContactAxis& axis, Contacts& out);
+ContactPoint edge_contact(const ContactAxis& axis);
 // Whether the closest points of the two lines lie within both edges (to round-off).
 bool edges_cross(const ContactAxis& axis);
 
-// A and B give, in one frame: face(index, FacePolygon&), face_facing(d), support_index(d),
-// vertex(i).
+// A and B give, in one frame: face(index, FacePolygon&), face_facing(d), faces_facing(d, int[2]),
+// support_index(d), vertex(i).
 template <class A, class B>
 struct PolyhedronContact {
   const A& a;
@@ -43,15 +43,16 @@ struct PolyhedronContact {
     const bool apart = best.separation > Num(0);
     const Num slack = (apart ? kAttained : kFacePreference) * thickness;
     const Num limit = best.separation + slack;
-    if (overlay(preferred.normal, preferred.separation, preferred.face_a, preferred.face_b, limit))
-      return;
-    if (&preferred != &best &&
-        overlay(best.normal, best.separation, best.face_a, best.face_b, limit))
+    if (preferred.kind != ContactAxis::Kind::Edges &&
+        overlay(preferred.normal, preferred.separation, preferred.face_a, preferred.face_b, limit))
       return;
     if (best.kind == ContactAxis::Kind::Edges && (!apart || edges_cross(best))) {
-      add_edge_contact(best, out);
+      overlay_ridges(best.normal, limit, edge_contact(best));
       return;
     }
+    if (best.kind != ContactAxis::Kind::Edges && &preferred != &best &&
+        overlay(best.normal, best.separation, best.face_a, best.face_b, limit))
+      return;
     if (!apart) {
       add_vertex_contact(best);
     } else {
@@ -74,6 +75,36 @@ struct PolyhedronContact {
     if (!(smallest <= limit)) return false;
     if (candidates.count > 0) choose_points(candidates, normal, kDeepestTie * thickness, out);
     return true;
+  }
+
+  // Edges or corners that meet in `deepest`: each side of one over each side of the other. Along
+  // edges that are nearly parallel the surfaces stay near to one another on all of what they share,
+  // and which of the four pairs of sides holds it changes with the least turn.
+  void overlay_ridges(NumVec normal, Num limit, const ContactPoint& deepest) {
+    int sides_a[2], sides_b[2];
+    a.faces_facing(normal, sides_a);
+    b.faces_facing(-normal, sides_b);
+    ContactCandidates candidates;
+    candidates.count = 0;
+    Num smallest = std::numeric_limits<Num>::infinity();
+    FacePolygon polygon_a, polygon_b;
+    for (const int side_a : sides_a) {
+      a.face(side_a, polygon_a);
+      if (dot(polygon_a.normal, normal) < kSteepFace) continue;
+      for (const int side_b : sides_b) {
+        b.face(side_b, polygon_b);
+        if (dot(polygon_b.normal, normal) > -kSteepFace) continue;
+        smallest =
+            std::min(smallest, overlay_faces(polygon_a, polygon_b, normal, deepest.separation,
+                                             kClipBand * thickness, margin, candidates));
+      }
+    }
+    if (!(smallest <= limit)) {
+      if (candidates.count == ContactCandidates::kCapacity) --candidates.count;
+      candidates.points[candidates.count++] = deepest;
+    }
+    if (candidates.count > 0)
+      choose_ridge_points(candidates, normal, kDeepestTie * thickness, margin, out);
   }
 
   void add_vertex_contact(const ContactAxis& axis) {
@@ -102,10 +133,9 @@ struct PolyhedronContact {
     if (!(closest.distance <= margin)) return;
     const NumVec n = closest.normal;
     const Num limit = closest.distance + kAttained * thickness;
-    if (overlay(n, closest.distance, a.face_facing(n), b.face_facing(-n), limit)) return;
-    out.normal = n;
-    out.add(Num(0.5) * (closest.on_a + closest.on_b), closest.distance,
-            pair_name(vertex_name(a.support_index(n)), vertex_name(b.support_index(-n))));
+    overlay_ridges(n, limit,
+                   {Num(0.5) * (closest.on_a + closest.on_b), closest.distance,
+                    pair_name(vertex_name(a.support_index(n)), vertex_name(b.support_index(-n)))});
   }
 };
 

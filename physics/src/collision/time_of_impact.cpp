@@ -1,6 +1,7 @@
 #include "collision/time_of_impact.h"
 
 #include <limits>
+#include <vector>
 
 #include "collision/core_support.h"
 #include "collision/gjk.h"
@@ -24,18 +25,23 @@ constexpr Num kAimedRoom = 0.125;
 // An axis serves again while an advance along it leaves more than this part of the room [-].
 constexpr Num kKeepAxis = 0.25;
 
+// A point deep inside of a shape, in its frame.
+NumVec middle_of(const CollisionShape& shape) {
+  return shape.type == ShapeType::Hull ? to_num(shape.hull->interior_point()) : NumVec{0, 0, 0};
+}
+
 // A shape in motion, evaluated at one time.
 class Mover {
  public:
   explicit Mover(const SweptShape& swept) : swept_(swept) {
     const CollisionShape& shape = swept.shape;
-    radius_ = static_cast<Num>(shape.radius);
+    radius_ = swept.scale * static_cast<Num>(shape.radius);
     if (is_plane()) return;
     if (swept.triangle != nullptr) {
       radius_ = 0;
       for (const NumVec& v : swept.triangle->corner) core_size_ = std::max(core_size_, length(v));
     } else {
-      core_size_ = static_cast<Num>(bounding_radius(shape)) - radius_;
+      core_size_ = static_cast<Num>(bounding_radius(shape) - shape.radius);
     }
     const Num offset = length(swept.p);
     // Half a rounding of single precision must not make a point out of a sphere's centre.
@@ -117,7 +123,12 @@ class Mover {
   }
 
   [[nodiscard]] NumVec local_support(NumVec d) const {
-    if (swept_.triangle == nullptr) return core_support(swept_.shape, d);
+    if (swept_.triangle == nullptr) {
+      const NumVec farthest = core_support(swept_.shape, d);
+      if (swept_.scale == Num(1)) return farthest;
+      const NumVec middle = middle_of(swept_.shape);
+      return middle + swept_.scale * (farthest - middle);
+    }
     const NumVec* corner = swept_.triangle->corner;
     const Num a = dot(corner[0], d), b = dot(corner[1], d), c = dot(corner[2], d);
     return corner[a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2)];
@@ -322,11 +333,17 @@ class PartSearch {
     } else if (is_surface(a.shape.type) && is_surface(b.shape.type)) {
       return;  // never asked about one another
     } else if (is_surface(a.shape.type)) {
-      for_triangles(a, b, [&](const SweptShape& part) { search_parts(part, b); });
+      search_surface(a, b,
+                     [&](const SweptShape& part, const SweptShape& core, const ImpactSearch& how) {
+                       search_parts(part, core, how);
+                     });
     } else if (is_surface(b.shape.type)) {
-      for_triangles(b, a, [&](const SweptShape& part) { search_parts(a, part); });
+      search_surface(b, a,
+                     [&](const SweptShape& part, const SweptShape& core, const ImpactSearch& how) {
+                       search_parts(core, part, how);
+                     });
     } else {
-      search_parts(a, b);
+      search_parts(a, b, search_);
     }
   }
   [[nodiscard]] Impact result() const { return best_; }
@@ -359,8 +376,41 @@ class PartSearch {
       HeightfieldSurface(*x.shape.heightfield).query(box, each);
     }
   }
-  void search_parts(const SweptShape& a, const SweptShape& b) {
-    ImpactSearch search = search_;
+  // By the whole shape what it does not touch, by its core what it does.
+  template <class TryPart>
+  void search_surface(const SweptShape& surface, const SweptShape& other, TryPart&& try_part) {
+    const Num thickness = static_cast<Num>(smallest_thickness(other.shape));
+    if (!(search_.allowance > Num(0)) || !(thickness > Num(2) * search_.allowance)) {
+      for_triangles(surface, other,
+                    [&](const SweptShape& part) { try_part(part, other, search_); });
+      return;
+    }
+    ImpactSearch start = search_;
+    start.end = start.begin;
+    at_start_.clear();
+    Num least = std::numeric_limits<Num>::infinity();
+    for_triangles(surface, other, [&](const SweptShape& part) {
+      at_start_.push_back(Search(part, other, start).run().first_distance);
+      least = std::min(least, at_start_.back());
+    });
+    best_.touched = best_.touched || least < search_.touching;
+    const Num near =
+        least < search_.separation ? std::numeric_limits<Num>::infinity() : search_.touching;
+    SweptShape core = other;
+    core.scale = Num(1) - Num(2) * search_.allowance / thickness;
+    ImpactSearch of_core = search_;
+    of_core.touching = search_.separation;
+    std::size_t i = 0;
+    for_triangles(surface, other, [&](const SweptShape& part) {
+      if (at_start_[i++] < near) {
+        try_part(part, core, of_core);
+      } else {
+        try_part(part, other, search_);
+      }
+    });
+  }
+  void search_parts(const SweptShape& a, const SweptShape& b, const ImpactSearch& how) {
+    ImpactSearch search = how;
     if (best_.status != ImpactStatus::Apart) search.end = best_.time;
     if (!(search.end > search.begin) && best_.status != ImpactStatus::Apart) {
       // Met at the very beginning: only who is deepest there is still of interest.
@@ -387,6 +437,7 @@ class PartSearch {
 
   const ImpactSearch& search_;
   Impact best_;
+  std::vector<Num> at_start_;  // [m] how far the triangles of a surface were
 };
 
 }  // namespace

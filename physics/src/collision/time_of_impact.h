@@ -31,6 +31,7 @@ struct SweptShape {
   NumRotation q;  // of the shape in the body
   const Sweep& sweep;
   const SurfaceTriangle* triangle = nullptr;  // this one of the surface, instead of all of it
+  Num scale = 1;  // (0, 1] of the shape about its middle: the core of it that is followed
 };
 
 struct ImpactSearch {
@@ -41,6 +42,9 @@ struct ImpactSearch {
   // Shapes that are nearer than this when the search begins touch already [m]. They are let go on
   // until they are deeper than the sought separation by `allowance`; or, if they are that deep
   // already, until they get deeper at all (by twice the tolerance); or until they are apart.
+  // A triangle has no depth of its own: what touches a surface is followed against it by a core of
+  // the shape that leaves out the allowance at its thinnest. So is all that the shape comes to on
+  // the same surface if it is deeper than the sought separation already: it would never get off.
   Num touching = 0;
   Num allowance = 0;  // [m] >= 0; 0: what touches at the beginning meets then
 };

@@ -142,14 +142,20 @@ class Touch {
     return true;
   }
 
-  // The triangle laid over a face of the polyhedron, along `n`, which touches `feature`.
-  bool over_face(int face, NumVec n, Num separation, SurfaceFeature feature, Num limit) {
+  // The triangle laid over faces of the polyhedron, along `n`, which touches `feature`.
+  template <std::size_t Count>
+  bool over_faces(const int (&faces)[Count], NumVec n, Num separation, SurfaceFeature feature,
+                  Num limit) {
     FacePolygon other;
-    p_.face(face, other);
-    if (dot(other.normal, -n) < kSteepFace) return false;
     out_.candidates.count = 0;
-    const Num smallest = overlay_faces(other, polygon_, -n, separation, kClipBand * on_.thickness,
-                                       on_.margin, out_.candidates);
+    Num smallest = std::numeric_limits<Num>::infinity();
+    for (const int face : faces) {
+      p_.face(face, other);
+      if (dot(other.normal, -n) < kSteepFace) continue;
+      smallest =
+          std::min(smallest, overlay_faces(other, polygon_, -n, separation,
+                                           kClipBand * on_.thickness, on_.margin, out_.candidates));
+    }
     if (!(smallest <= limit) || out_.candidates.count == 0) return false;
     for (int i = 0; i < out_.candidates.count; ++i)
       out_.candidates.points[i].feature = swapped_name(out_.candidates.points[i].feature);
@@ -159,13 +165,22 @@ class Touch {
     return true;
   }
   bool over_face(const Axis& axis, Num limit) {
-    return over_face(axis.face, normalized_or(axis.normal, {0, 1, 0}), axis.separation,
-                     axis.feature, limit);
+    const int only[1] = {axis.face};
+    return over_faces(only, normalized_or(axis.normal, {0, 1, 0}), axis.separation, axis.feature,
+                      limit);
+  }
+
+  // Both sides of the edge that touches: where it nearly runs along the triangle's, either may
+  // hold.
+  bool over_ridge(NumVec n, Num separation, SurfaceFeature feature, Num limit) {
+    int sides[2];
+    p_.faces_facing(-n, sides);
+    return over_faces(sides, n, separation, feature, limit);
   }
 
   bool crossing(const Axis& axis, Num limit) {
     const NumVec n = normalized_or(axis.normal, {0, 1, 0});
-    if (over_face(p_.face_facing(-n), n, axis.separation, axis.feature, limit)) return true;
+    if (over_ridge(n, axis.separation, axis.feature, limit)) return true;
     const int e = axis.feature.index;
     const Segment side{t_.corner[e], t_.corner[(e + 1) % 3]}, edge = p_.segment(axis.edge);
     const SegmentParameters at = closest_parameters(side, edge);
@@ -197,8 +212,7 @@ class Touch {
     bool of_face = false;
     if (feature.kind == Kind::Face || !allow_normal(on_, t_, feature, n, of_face) || of_face)
       return false;  // over_triangle() has seen it
-    if (over_face(p_.face_facing(-n), n, closest.distance, feature,
-                  closest.distance + kAttained * on_.thickness))
+    if (over_ridge(n, closest.distance, feature, closest.distance + kAttained * on_.thickness))
       return true;
     out_.normal = n;
     out_.of_face = false;

@@ -36,6 +36,11 @@ bool touch_capsule(const ConvexOnSurface& on, SurfaceTriangle& t, TriangleContac
 bool touch_polyhedron(const ConvexOnSurface& on, const PlacedPolyhedron& polyhedron,
                       SurfaceTriangle& t, TriangleContact& out);
 
+// A contact of a sharp core becomes that of the shape that it is grown to. Points where the grown
+// surface bulges beyond them go; the deepest stays.
+void grow_contact(const ConvexOnSurface& on, const PlacedPolyhedron& core,
+                  TriangleContact& contact);
+
 // Names of edge and corner contacts, apart from those of faces (see part_of_plane).
 inline constexpr std::uint32_t kFeaturePart = 1U << 31;
 std::uint32_t feature_part(const SurfaceTriangle& t, SurfaceFeature feature);
