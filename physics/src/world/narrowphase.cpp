@@ -320,6 +320,23 @@ void note_depth(WorldState& world, const Contact& contact) {
   }
 }
 
+// What lies on a body that is being pushed out, and on that, is pushed with it.
+void spread_depth(WorldState& world) {
+  if (!world.deep_overlap) return;
+  const BodyStore& bodies = world.bodies;
+  std::vector<std::uint8_t>& deep = world.overlaps_deeply;
+  for (int layer = 0; layer < tolerance::kDeepLayers; ++layer) {
+    const std::vector<std::uint8_t> before = deep;
+    for (const Contact& contact : world.contacts) {
+      const Pair& pair = world.pairs[contact.pair];
+      const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
+      if ((before[a] | before[b]) == 0) continue;
+      if (bodies.mass[a].mass > Real(0)) deep[a] = 1;
+      if (bodies.mass[b].mass > Real(0)) deep[b] = 1;
+    }
+  }
+}
+
 void report_contacts(WorldState& world) {
   StepReport& report = world.report;
   report.candidate_pairs = static_cast<std::uint32_t>(world.pairs.size());
@@ -348,6 +365,7 @@ void collide_pairs(WorldState& world) {
   }
   take_findings(world);
   report_contacts(world);
+  spread_depth(world);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -45,6 +45,9 @@ inline constexpr Real kStiffestContact = Real(0.25);
 // often, so that what pushes bodies apart does not throw them.
 inline constexpr Real kDeepSlops = Real(10);
 inline constexpr int kDeepRelaxPasses = 6;
+// ... with the contacts of those that touch them, and so on, so many times [-]. With 0 a stack
+// under 100 g loses hold of its lowest box; from 1 on it stands as if all were relaxed.
+inline constexpr int kDeepLayers = 2;
 
 // An approach slower than this many g h (h: substep) does not bounce [-]. A pair at rest gains g h
 // a substep, so that anything below is noise; a pair that was at rest needs more, because an
