@@ -24,6 +24,14 @@ Real skin_of(const ColliderInfo& collider) {
   return is_surface(collider.shape.type) ? Real(0) : std::min(collider.thickness, kUnbounded);
 }
 
+// As the step's rows take it: a locked axis feels none.
+Vec gravity_on(const WorldState& world, std::uint32_t dense) {
+  const BodyMass& m = world.bodies.mass[dense];
+  const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
+  return {m.inverse_mass.x > Real(0) ? g.x : Real(0), m.inverse_mass.y > Real(0) ? g.y : Real(0),
+          m.inverse_mass.z > Real(0) ? g.z : Real(0)};
+}
+
 struct Reach {
   WorldAabb box;   // all places of the collider in the next step, unless something hits the body
   PosVec path;     // [m] of its centre of mass in it
@@ -55,8 +63,10 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
     const Real pulled =
         length(multiply_each(bodies.mass[body.dense].inverse_mass, bodies.force[body.dense].force));
     around += world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
-    if (world.effects != nullptr && !world.effects->empty())
-      around += world.dt * world.dt * length(body.acceleration);
+    const bool pushed = world.effects != nullptr && !world.effects->empty() &&
+                        length_squared(body.acceleration) > Real(0);
+    if (pushed)
+      around += world.dt * world.dt * length(body.acceleration - gravity_on(world, body.dense));
     path = world.dt * velocity.v;
   }
   const WorldAabb here{pose.x + cast<PosReal>(box.lower), pose.x + cast<PosReal>(box.upper)};
