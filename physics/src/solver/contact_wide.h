@@ -98,26 +98,12 @@ RowBlock<P>& numbers_of(const BlockPass& pass, const BlockHead& head) {
 }
 
 template <int P>
-void warm_block(const BlockPass& pass, const BlockHead& head) {
+void warm_rows(const BlockPass& pass, const BlockHead& head) {
   const RowBlock<P>& row = numbers_of<P>(pass, head);
   BlockBodies bodies(pass, head);
   RowVelocities<Number> u = bodies.velocities();
   place_arms(row, bodies.shift(head.body_a), bodies.shift(head.body_b), u);
   warm_start(row, u);
-  bodies.write(u);
-}
-
-template <int P>
-void solve_block_of_rows(const BlockPass& pass, const BlockHead& head) {
-  RowBlock<P>& row = numbers_of<P>(pass, head);
-  BlockBodies bodies(pass, head);
-  RowVelocities<Number> u = bodies.velocities();
-  const DeltaOf<Number> da = bodies.delta(head.body_a), db = bodies.delta(head.body_b);
-  place_arms(row, da.dp, db.dp, u);
-  const SeparationChange<Number> change = separation_change(row, da, db);
-  Number load, sliding;
-  solve_normal(row, change, Number(pass.inverse_h), true, u);
-  solve_friction(row, u, load, sliding);
   bodies.write(u);
 }
 
@@ -129,8 +115,9 @@ void mark(const BlockPass& pass, const BlockHead& head, std::uint32_t lanes) {
   }
 }
 
-template <int P>
-void relax_block(const BlockPass& pass, const BlockHead& head) {
+// The soft pass, or the relaxing one, which also tells the bodies what they carry.
+template <int P, bool kRelaxes>
+void sweep_block(const BlockPass& pass, const BlockHead& head) {
   RowBlock<P>& row = numbers_of<P>(pass, head);
   BlockBodies bodies(pass, head);
   RowVelocities<Number> u = bodies.velocities();
@@ -138,13 +125,22 @@ void relax_block(const BlockPass& pass, const BlockHead& head) {
   place_arms(row, da.dp, db.dp, u);
   const SeparationChange<Number> change = separation_change(row, da, db);
   Number load, sliding;
-  solve_normal(row, change, Number(pass.inverse_h), false, u);
+  solve_normal(row, change, Number(pass.inverse_h), !kRelaxes, u);
   solve_friction(row, u, load, sliding);
-  bodies.add_load(load, sliding);
+  if (kRelaxes) bodies.add_load(load, sliding);
   bodies.write(u);
+  if (!kRelaxes) return;
   // Between two dynamic bodies the shift of the trapezoid would not keep their angular momentum.
   mark(pass, head, bits_of(load > Number(0)) & head.writes_a & head.writes_b);
   if (pass.ends_substep) mark(pass, head, bits_of(end_substep(row)) & head.lanes);
+}
+template <int P>
+void solve_rows(const BlockPass& pass, const BlockHead& head) {
+  sweep_block<P, false>(pass, head);
+}
+template <int P>
+void relax_rows(const BlockPass& pass, const BlockHead& head) {
+  sweep_block<P, true>(pass, head);
 }
 
 // W consecutive bodies. Which quads of a record hold what: see the records (body_store.h,
@@ -292,16 +288,16 @@ std::uint32_t fly_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_
 }  // namespace
 }  // namespace plumb::inline PLUMB_ABI::detail
 
-namespace plumb::PLUMB_SHARED_ABI::detail {
+namespace plumb::inline PLUMB_SHARED_ABI::detail {
 
 BlockKernel PLUMB_JOIN(block_kernel_, PLUMB_VECTOR_BITS, )() {
   namespace here = plumb::PLUMB_ABI::detail;
-  using here::relax_block, here::solve_block_of_rows, here::warm_block;
+  using here::relax_rows, here::solve_rows, here::warm_rows;
   BlockKernel kernel;
   kernel.lanes = here::kLanes;
-  kernel.warm = PLUMB_FOR_EACH_BLOCK(warm_block);
-  kernel.solve = PLUMB_FOR_EACH_BLOCK(solve_block_of_rows);
-  kernel.relax = PLUMB_FOR_EACH_BLOCK(relax_block);
+  kernel.warm = PLUMB_FOR_EACH_BLOCK(warm_rows);
+  kernel.solve = PLUMB_FOR_EACH_BLOCK(solve_rows);
+  kernel.relax = PLUMB_FOR_EACH_BLOCK(relax_rows);
   kernel.kick = here::kick_bodies;
   kernel.drift = here::drift_bodies;
   kernel.finish = here::finish_bodies;
@@ -309,4 +305,4 @@ BlockKernel PLUMB_JOIN(block_kernel_, PLUMB_VECTOR_BITS, )() {
   return kernel;
 }
 
-}  // namespace plumb::PLUMB_SHARED_ABI::detail
+}  // namespace plumb::inline PLUMB_SHARED_ABI::detail
