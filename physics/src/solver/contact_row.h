@@ -52,6 +52,7 @@ struct SubstepBody {
   bool split = false;     // ... and nothing that hangs on it touches anything
   bool affected = false;  // some effect acts on it
   bool balanced = false;  // water or springs hold it, with nothing left over
+  bool turned = false;    // fast: its rows are told anew within the step (turned_rows.h)
 };
 
 // Spring-like softness of a contact, from a frequency and a damping ratio [Catto 2024]:
@@ -105,7 +106,7 @@ struct RowNumbers {
 template <class T>
 struct ContactRow : RowNumbers<T, 4> {
   static constexpr int kMaxPoints = 4;
-  static constexpr std::uint32_t kNoTurning = 0xffffffffu;
+  static constexpr std::uint32_t kNoTurning = 0xffffffffu, kNotTurned = 0xffffffffu;
   std::uint32_t body_a = 0, body_b = 0;  // dense; 0: nothing that moves
   std::uint32_t contact = 0;             // index into the world's contacts
   int count = 0;
@@ -115,6 +116,7 @@ struct ContactRow : RowNumbers<T, 4> {
   bool both_dynamic = false;
   T restitution = T(0);
   std::uint32_t turning = kNoTurning;  // its row of rolling and torsional friction, if any
+  std::uint32_t turned = kNotTurned;   // its place among the rows told anew, if it is one
   T push_speed = T(0);  // [m/s] limit of the velocity that works off overlap, of most substeps
 
   bool exact_spheres = false;            // both are spheres about their centres of mass

@@ -66,15 +66,6 @@ void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real
     point.a = dot(row.t1, offset);
     point.b = dot(row.t2, offset);
     point.separation = from.separation;
-    const Real a = point.a, b = point.b;
-    const auto& K = row.K_normal;
-    const Real response =
-        K.xx + b * b * K.yy + a * a * K.zz + Real(2) * (b * K.xy - a * K.xz - a * b * K.yz);
-    point.normal_mass = response > Real(0) ? Real(1) / response : Real(0);
-    const auto& F = row.K_friction;
-    point.k11 = F.xx - Real(2) * b * F.xz + b * b * F.zz;
-    point.k12 = F.xy + a * F.xz - b * F.yz - a * b * F.zz;
-    point.k22 = F.yy + Real(2) * a * F.yz + a * a * F.zz;
     point.impulse = warm * contact.normal_impulse[i];
     // Friction also stops swaying, and those impulses must not grow with the step: that would pump.
     const Real warm_friction = std::min(warm, Real(1));
@@ -135,6 +126,29 @@ void make_block(ContactRow<Real>& row) {
   row.has_block = Real(1);
 }
 
+}  // namespace
+
+void fill_responses(ContactRow<Real>& row) {
+  row.K_normal = row.K_friction = {};
+  add_response(row, row.arm_a, row.inverse_mass_a, row.inverse_inertia_a);
+  add_response(row, row.arm_b, row.inverse_mass_b, row.inverse_inertia_b);
+  const auto &K = row.K_normal, &F = row.K_friction;
+  for (int i = 0; i < row.count; ++i) {
+    auto& point = row.points[i];
+    const Real a = point.a, b = point.b;
+    const Real response =
+        K.xx + b * b * K.yy + a * a * K.zz + Real(2) * (b * K.xy - a * K.xz - a * b * K.yz);
+    point.normal_mass = response > Real(0) ? Real(1) / response : Real(0);
+    point.k11 = F.xx - Real(2) * b * F.xz + b * b * F.zz;
+    point.k12 = F.xy + a * F.xz - b * F.yz - a * b * F.zz;
+    point.k22 = F.yy + Real(2) * a * F.yz + a * a * F.zz;
+  }
+  row.has_block = Real(0);
+  make_block(row);
+}
+
+namespace {
+
 // `arm`: of the contact from the body's centre of mass; `outward`: from the collider.
 Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, Vec arm,
                      Vec outward) {
@@ -190,18 +204,16 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   if (a_moves) {
     row.inverse_mass_a = bodies.mass[row.body_a].inverse_mass;
     row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
-    add_response(row, row.arm_a, row.inverse_mass_a, row.inverse_inertia_a);
   }
   if (b_moves) {
     row.inverse_mass_b = bodies.mass[row.body_b].inverse_mass;
     row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
-    add_response(row, row.arm_b, row.inverse_mass_b, row.inverse_inertia_b);
   }
   // The remembered impulses belong to a substep of the last length; forces are what persists.
   const Real warm =
       world.settings.warm_starting && world.last_h > Real(0) ? world.h / world.last_h : Real(0);
   make_points(row, contact, center, warm);
-  make_block(row);
+  fill_responses(row);
 
   if (pair.driven) row.drive = drive_of(world, pair, row).velocity;
   row.friction = pair.friction;
@@ -312,6 +324,7 @@ void build_rows(WorldState& world) {
   world.bouncing_rows.clear();
   for (std::uint32_t i = 0; i < count; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);
+  find_turned_rows(world);
   if (world.newton != nullptr && world.newton->count > 0) gather_newton_islands(world);
 }
 

@@ -71,7 +71,7 @@ RowVelocities<Real> read_velocities(const WorldState& world, const ContactRow<Re
   const BodyVelocity& a = world.bodies.velocity[row.body_a];
   const BodyVelocity& b = world.bodies.velocity[row.body_b];
   RowVelocities<Real> u{a.v, a.w, b.v, b.w, {}, {}};
-  place_arms(row, world.delta[row.body_a].dp, world.delta[row.body_b].dp, u);
+  place_arms(row, delta_of_a(world, row).dp, delta_of_b(world, row).dp, u);
   return u;
 }
 // Bodies that are not dynamic may stand in many rows of a colour; they are never written.
@@ -158,7 +158,7 @@ bool resist_turning(WorldState& world, const ContactRow<Real>& row, bool first_p
 
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
   if (!row.skip) {
-    const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
+    const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
     RowVelocities<Real> u = read_velocities(world, row);
     Real load = 0, sliding = 0;
     RowCharge charged(world, row, world.diagnostics.ledger);
@@ -263,6 +263,7 @@ void run_substeps(WorldState& world) {
     bodies.kick([&](std::uint32_t i) {
       if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
     });
+    if (!world.turned_rows.empty()) renew_turned_rows(world);
     if (ledger) charge_kick(world);
     if (joints) fly_joint_groups(world);
     if (ledger) charge_joint_flight(world);
@@ -282,7 +283,7 @@ void run_substeps(WorldState& world) {
     if (ledger) charge(world, &EnergyLedger::joints);
     for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
       if (row.skip) return;
-      const auto change = separation_change(row, world.delta[row.body_a], world.delta[row.body_b]);
+      const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
       RowVelocities<Real> u = read_velocities(world, row);
       Real load = 0, sliding = 0;
       RowCharge charged(world, row, ledger);
@@ -297,6 +298,7 @@ void run_substeps(WorldState& world) {
     if (ledger) charge(world, &EnergyLedger::normal);
     bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
     if (ledger) charge_drift(world);
+    if (!world.turned_rows.empty()) renew_turned_rows(world);
     if (newton) settle_newton_islands(world);
     if (newton && ledger) charge(world, &EnergyLedger::normal);
     if (joints) relax_joints(world);

@@ -58,7 +58,7 @@ void renew_boxes(WorldState& world, const std::vector<std::uint32_t>& moved) {
   parallel_for(world, count, tolerance::kBodyGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i)
       for (const std::uint32_t collider : world.bodies.info[moved[i]].colliders)
-        leaves[i] |= leaves_proxy(world, collider) ? 1 : 0;
+        if (leaves_proxy(world, collider)) leaves[i] = 1;
   });
   for (std::uint32_t i = 0; i < count; ++i) {
     if (leaves[i] == 0) continue;

@@ -14,6 +14,13 @@ inline constexpr Real kSlopFraction = Real(0.002);
 // this many slops [-] since they were found: 40 um for a 1 m box.
 inline constexpr Real kRecycleSlops = Real(0.02);
 
+// A body that turns by more than this in a step [rad], by its angular velocity, has its contact rows
+// told anew within the step; except where it shows the contact a ball, whose core is shorter than
+// the root of kRoundCore [-] of the arm. Below, the error of arms that stay is of the order of its
+// square.
+inline constexpr Real kFastTurn = Real(0.25);
+inline constexpr Real kRoundCore = Real(0.01);
+
 // Contact points are made this many slops before the surfaces meet [-], so that a manifold keeps
 // all its points while a body rocks by less than the slop.
 inline constexpr Real kMarginSlops = Real(4);

@@ -12,6 +12,7 @@
 #include "solver/contact_blocks.h"
 #include "solver/contact_row.h"
 #include "solver/surface_drive.h"
+#include "solver/turned_rows.h"
 #include "solver/turning_row.h"
 #include "world/body_store.h"
 #include "world/collider_store.h"
@@ -121,16 +122,17 @@ struct WorldState {
 
   // --- scratch of the running step (kept between steps for its storage) ---
   StepFlags flags;
-  Real dt = 0, h = 0;                    // [s] step, substep
-  Real last_h = 0;                       // [s] substep to which the remembered impulses belong
-  bool deep_overlap = false;             // some contact of this step begins far inside
+  Real dt = 0, h = 0;                         // [s] step, substep
+  Real last_h = 0;                            // [s] substep to which the remembered impulses belong
+  bool deep_overlap = false;                  // some contact of this step begins far inside
   std::vector<std::uint8_t> overlaps_deeply;  // per dense body, only then: whether it has one
-  Real proxy_dt = 0;                     // [s] step for which the boxes reach ahead
-  std::vector<std::uint32_t> row_order;  // contacts by colour
+  Real proxy_dt = 0;                          // [s] step for which the boxes reach ahead
+  std::vector<std::uint32_t> row_order;       // contacts by colour
   std::vector<ColorRange> colors;
   std::vector<ContactRow<Real>> rows;  // in colour order
   std::vector<std::uint32_t> bouncing_rows;
   std::vector<SpinningRow> spinning_rows;
+  std::vector<TurnedRow> turned_rows;
   std::shared_ptr<newton::Solver> newton;      // null until a step calls for it
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
   std::vector<BodyDelta> delta;                // per dense index

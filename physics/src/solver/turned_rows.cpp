@@ -1,0 +1,109 @@
+#include "solver/turned_rows.h"
+
+#include "solver/body_substep.h"
+#include "solver/contact_kernel.h"
+#include "world/tolerances.h"
+#include "world/world_state.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+bool is_isotropic(const BodyMass& m) {
+  return m.moments.x == m.moments.y && m.moments.y == m.moments.z;
+}
+// A ball shows the contact the same face whatever it turns.
+bool matters(const WorldState& world, std::uint32_t body, Vec core, Vec arm) {
+  return world.substep[body].turned &&
+         (!is_isotropic(world.bodies.mass[body]) ||
+          length_squared(core) > tolerance::kRoundCore * length_squared(arm));
+}
+
+BodyDelta since(const BodyDelta& now, const BodyDelta& then) {
+  return {now.dp - then.dp, Real(0), normalized(now.dq * conjugate(then.dq))};
+}
+
+void renew(WorldState& world, TurnedRow& turned) {
+  ContactRow<Real>& row = world.rows[turned.row];
+  const BodyDelta da = delta_of_a(world, row), db = delta_of_b(world, row);
+  const SeparationChange<Real> change = separation_change(row, da, db);
+  const bool a_moves = world.substep[row.body_a].constrained;
+  const bool b_moves = world.substep[row.body_b].constrained;
+  for (int i = 0; i < row.count; ++i) {
+    auto& point = row.points[i];
+    point.separation += change.D0 + point.a * change.E1 + point.b * change.E2;
+    const Vec place = point.a * row.t1 + point.b * row.t2;
+    const Vec by_a = rotate(da.dq, place), by_b = rotate(db.dq, place);
+    const Vec now = row.both_dynamic ? Real(0.5) * (by_a + by_b) : (a_moves ? by_a : by_b);
+    point.a = dot(row.t1, now);
+    point.b = dot(row.t2, now);
+  }
+  row.core_a = rotate(da.dq, row.core_a);
+  row.core_b = rotate(db.dq, row.core_b);
+  const Vec from_a_to_b = row.between + world.delta[row.body_b].dp - world.delta[row.body_a].dp;
+  const Vec on_a = row.core_a + row.surface_a * row.n;
+  const Vec on_b = row.core_b - row.surface_b * row.n;
+  if (row.both_dynamic) {
+    row.arm_a = Real(0.5) * (on_a + from_a_to_b + on_b);
+    row.arm_b = row.arm_a - from_a_to_b;
+  } else if (a_moves) {
+    row.arm_a = on_a;
+    row.arm_b = on_a - from_a_to_b;
+  } else {
+    row.arm_b = on_b;
+    row.arm_a = on_b + from_a_to_b;
+  }
+  row.advance = {0, 0, 0};
+  if (a_moves) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
+  if (b_moves) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
+  fill_responses(row);
+  turned.a = world.delta[row.body_a];
+  turned.b = world.delta[row.body_b];
+}
+
+}  // namespace
+
+void find_turned_rows(WorldState& world) {
+  world.turned_rows.clear();
+  bool any = false;
+  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
+    SubstepBody& s = world.substep[i];
+    s.turned = s.constrained && !s.jointed &&
+               world.dt * length(world.bodies.velocity[i].w) > tolerance::kFastTurn;
+    any |= s.turned;
+  }
+  if (!any) return;
+  // Bounces keep time, arms and inertia of their own.
+  for (const std::uint32_t k : world.bouncing_rows)
+    for (const std::uint32_t body : {world.rows[k].body_a, world.rows[k].body_b})
+      world.substep[body].turned = false;
+  for (const ColorRange color : world.colors)
+    for (std::uint32_t i = color.begin; i < color.end; ++i) {
+      ContactRow<Real>& row = world.rows[i];
+      if (!matters(world, row.body_a, row.core_a, row.arm_a) &&
+          !matters(world, row.body_b, row.core_b, row.arm_b))
+        continue;
+      row.turned = static_cast<std::uint32_t>(world.turned_rows.size());
+      world.turned_rows.push_back({i, world.delta[row.body_a], world.delta[row.body_b]});
+    }
+}
+
+void renew_turned_rows(WorldState& world) {
+  for (const TurnedRow& turned : world.turned_rows)
+    for (const std::uint32_t body : {world.rows[turned.row].body_a, world.rows[turned.row].body_b})
+      if (world.substep[body].turned && !is_isotropic(world.bodies.mass[body]))
+        turn_inertia(world, body);
+  for (TurnedRow& turned : world.turned_rows) renew(world, turned);
+}
+
+BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row) {
+  const BodyDelta& now = world.delta[row.body_a];
+  return row.turned == ContactRow<Real>::kNotTurned ? now
+                                                    : since(now, world.turned_rows[row.turned].a);
+}
+BodyDelta delta_of_b(const WorldState& world, const ContactRow<Real>& row) {
+  const BodyDelta& now = world.delta[row.body_b];
+  return row.turned == ContactRow<Real>::kNotTurned ? now
+                                                    : since(now, world.turned_rows[row.turned].b);
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail

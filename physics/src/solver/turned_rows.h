@@ -1,0 +1,32 @@
+// Rows of bodies that turn fast. A row holds its arms, the places of its points and the inertia for
+// a step; a body that turns by a good part of a radian meanwhile would be pushed at points that
+// have long gone elsewhere, and gain energy by it. Such rows are told anew twice a substep: where
+// the contact points have been carried, how deep they are, and how the bodies yield there now.
+#pragma once
+
+#include "solver/contact_row.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+
+struct WorldState;
+
+// Motion of the bodies up to which a row is told.
+struct TurnedRow {
+  std::uint32_t row = 0;
+  BodyDelta a, b;
+};
+
+// Which rows of this step are such, once they are built.
+void find_turned_rows(WorldState& world);
+// Tells them, and the inertia of their bodies, as of now. Angular velocity and momentum of the
+// bodies must agree (no row has acted since the last kick or drift).
+void renew_turned_rows(WorldState& world);
+
+// Motion of a row's bodies since the row was told.
+BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row);
+BodyDelta delta_of_b(const WorldState& world, const ContactRow<Real>& row);
+
+// Responses of a row from its arms, points and inertia (rows.cpp).
+void fill_responses(ContactRow<Real>& row);
+
+}  // namespace plumb::inline PLUMB_ABI::detail
