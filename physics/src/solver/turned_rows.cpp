@@ -8,6 +8,15 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
+// [rad/s] of the turning that shows: about the axis of a body of revolution nothing changes.
+Real visible_turning(const BodyMass& m, Rotation q, Vec w) {
+  const bool xy = m.moments.x == m.moments.y, yz = m.moments.y == m.moments.z;
+  const bool xz = m.moments.x == m.moments.z;
+  if (xy == yz && yz == xz) return length(w);
+  Vec in_body = inverse_rotate(q, w);
+  set_component(in_body, xy ? 2 : (yz ? 0 : 1), Real(0));
+  return length(in_body);
+}
 bool is_isotropic(const BodyMass& m) {
   return m.moments.x == m.moments.y && m.moments.y == m.moments.z;
 }
@@ -68,14 +77,17 @@ void find_turned_rows(WorldState& world) {
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
     SubstepBody& s = world.substep[i];
     s.turned = s.constrained && !s.jointed &&
-               world.dt * length(world.bodies.velocity[i].w) > tolerance::kFastTurn;
+               world.dt * visible_turning(world.bodies.mass[i], world.bodies.pose[i].q,
+                                          world.bodies.velocity[i].w) >
+                   tolerance::kFastTurn;
     any |= s.turned;
   }
   if (!any) return;
-  // Bounces keep time, arms and inertia of their own.
-  for (const std::uint32_t k : world.bouncing_rows)
-    for (const std::uint32_t body : {world.rows[k].body_a, world.rows[k].body_b})
-      world.substep[body].turned = false;
+  // Bounces keep time, arms and inertia of their own, and rows of fast pairs are those of the
+  // moment of first touch.
+  for (const ContactRow<Real>& row : world.rows)
+    if (row.restitution > Real(0) || length_squared(row.advance) > Real(0))
+      world.substep[row.body_a].turned = world.substep[row.body_b].turned = false;
   for (const ColorRange color : world.colors)
     for (std::uint32_t i = color.begin; i < color.end; ++i) {
       ContactRow<Real>& row = world.rows[i];

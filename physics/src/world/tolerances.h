@@ -11,13 +11,14 @@ namespace plumb::inline PLUMB_ABI::detail::tolerance {
 inline constexpr Real kSlopFraction = Real(0.002);
 
 // Manifolds are kept, and only moved along, while no point of either body has moved by more than
-// this many slops [-] since they were found: 40 um for a 1 m box.
-inline constexpr Real kRecycleSlops = Real(0.02);
+// this many slops [-] since they were found: 4 um for a 1 m box. With ten times that a box on a
+// slope just steeper than it can stand on tips visibly later.
+inline constexpr Real kRecycleSlops = Real(0.002);
 
-// A body that turns by more than this in a step [rad], by its angular velocity, has its contact rows
-// told anew within the step; except where it shows the contact a ball, whose core is shorter than
-// the root of kRoundCore [-] of the arm. Below, the error of arms that stay is of the order of its
-// square.
+// A body that turns by more than this in a step [rad], by its angular velocity, has its contact
+// rows told anew within the step; except where it shows the contact a ball, whose core is shorter
+// than the root of kRoundCore [-] of the arm. Below, the error of arms that stay is of the order of
+// its square.
 inline constexpr Real kFastTurn = Real(0.25);
 inline constexpr Real kRoundCore = Real(0.01);
 
