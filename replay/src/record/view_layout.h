@@ -1,13 +1,24 @@
 // What the viewer shows when the recording is opened, and from where it looks at the scene.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "plumb/replay/recorder.h"
 #include "record/visuals.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 
-void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options);
+// What the eye of a view follows.
+struct Followed {
+  std::string entity;
+  double grid_height = 0;  // [m] along up, of a grid of lines that shows how fast it goes
+};
+
+// The later layout of a recording is the one that is shown.
+void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options,
+                 const std::optional<Followed>& followed = {});
 
 }  // namespace replay::detail
 }  // namespace plumb::inline PLUMB_ABI
