@@ -220,7 +220,7 @@ impl Layout {
         let grid = LineGrid3D::new();
         let grid = if self.grid_spacing > 0.0 {
             grid.with_visible(true)
-                .with_spacing(f64::from(self.grid_spacing))
+                .with_spacing(self.grid_spacing)
                 .with_plane(Plane3D::new(self.up, self.grid_height))
                 .with_color(GRID_COLOR)
         } else {

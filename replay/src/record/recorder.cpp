@@ -278,13 +278,13 @@ void Recorder::Run::show_all_places() {
   if (view == View::AsBegun || !ok_) return;
   const detail::SceneExtent everywhere = travel_.everywhere();
   water_.widen(everywhere);
-  std::optional<detail::Followed> followed;
+  detail::FartherView farther;
+  farther.grid_height = water_.height(extent_.up).value_or(travel_.lowest());
   if (view == View::Following) {
-    const double bottom = travel_.lowest();
-    followed = {travel_.middle_entity(), water_.height(extent_.up).value_or(bottom)};
+    farther.followed = travel_.middle_entity();
     travel_.send_middle(writer_);
   }
-  detail::send_layout(writer_, travel_.seen(), options_, followed);
+  detail::send_layout(writer_, travel_.seen(), options_, farther);
 }
 
 void Recorder::Run::read_image(detail::Frame& frame) const {

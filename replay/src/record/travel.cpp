@@ -9,10 +9,11 @@ namespace replay::detail {
 namespace {
 
 constexpr std::size_t kStrayShare = 20;  // one in so many, at each end of an axis
-// The first view is kept while all is within so many radii of its centre.
-constexpr double kKeptRadii = 1.5;
+// The first view is kept while all is within so many radii of its centre: it looks below that, so
+// that what is poured out of a height stays in it.
+constexpr double kKeptRadii = 2.2;
 // A place so many times as large as the bodies together is no longer seen from outside.
-constexpr double kTogether = 6;
+constexpr double kTogether = 3;
 // A view that follows shows so many radii of the bodies together.
 constexpr double kFollowedRadii = 1.5;
 

@@ -38,7 +38,7 @@ void copy_to(const Eigen::Vector3d& v, float (&out)[3]) {
 }  // namespace
 
 void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options,
-                 const std::optional<Followed>& followed) {
+                 const std::optional<FartherView>& farther) {
   rrd::Layout layout;
   layout.timeline = rrd::kFrameTimeline;
   layout.frames_per_second = static_cast<float>(options.frames_per_second);
@@ -62,9 +62,9 @@ void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderO
   copy_to(eye, layout.eye);
   copy_to(target, layout.target);
   copy_to(up, layout.up);
-  if (followed) {
-    layout.followed = followed->entity;
-    layout.grid_height = static_cast<float>(followed->grid_height);
+  if (farther) {
+    layout.followed = farther->followed;
+    layout.grid_height = static_cast<float>(farther->grid_height);
     layout.grid_spacing = static_cast<float>(round_length(extent.radius));
   }
   send_axes(writer, up);

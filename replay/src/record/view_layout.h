@@ -10,15 +10,15 @@
 namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 
-// What the eye of a view follows.
-struct Followed {
-  std::string entity;
-  double grid_height = 0;  // [m] along up, of a grid of lines that shows how fast it goes
+// A view of more than the scene as it began.
+struct FartherView {
+  std::string followed;    // entity that the eye goes with; empty: it stays
+  double grid_height = 0;  // [m] along up, of a grid of lines that shows how far things go
 };
 
 // The later layout of a recording is the one that is shown.
 void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options,
-                 const std::optional<Followed>& followed = {});
+                 const std::optional<FartherView>& farther = {});
 
 }  // namespace replay::detail
 }  // namespace plumb::inline PLUMB_ABI

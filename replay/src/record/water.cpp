@@ -10,7 +10,7 @@ namespace plumb::inline PLUMB_ABI {
 namespace replay::detail {
 namespace {
 
-constexpr std::uint32_t kColor = 0x2d7fc490;
+constexpr std::uint32_t kColor = 0x12848c88;
 constexpr double kRadii = 4;  // half a side of the square, in radii of the scene
 
 enum Column : std::size_t { kPosition, kTriangle };
