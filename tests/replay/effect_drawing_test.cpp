@@ -83,7 +83,7 @@ TEST(DrawnSprings, ReachFromEndToEndWhileTheyLast) {
   };
   const auto act = [&](int step) {
     if (step == 3) must(world.create_effect({body, between, 0}));
-    if (step == 5) must(world.set_effect(first, moved));
+    if (step == 5) must(world.set_effect(first, {body, moved, 0}));
     if (step == 8) must(world.destroy_body(other));
   };
   record(
@@ -111,7 +111,7 @@ TEST(DrawnWater, StandsAtItsLevelAndCoversTheScene) {
   const auto act = [&](int step) {
     if (step == 4) {
       lake.level = real(1.25);
-      must(world.set_effect(water, lake));
+      must(world.set_effect(water, {{}, lake, 0}));
     }
     if (step == 6) must(world.create_effect({ball, Drag{real(0.1)}, 0}));
     if (step == 7) must(world.destroy_effect(water));
