@@ -2,29 +2,15 @@
 // making to its end, and each label beside what it belongs to.
 #include <map>
 
-#include "recorded_run.h"
+#include "drawn_rows.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace {
 
 using namespace scenes;
 using replay_test::kDt;
+using replay_test::rows_of;
 using replay_test::TemporaryFolder;
-
-// The numbers of one component by step; the last row of a step counts.
-template <class T>
-std::map<std::uint64_t, std::vector<T>> rows_of(const std::string& path, const std::string& entity,
-                                                const std::string& component) {
-  std::map<std::uint64_t, std::vector<T>> rows;
-  const auto read = rrd::read(path, entity, [&](const rrd::Cell& cell) {
-    if (cell.component() != component || !cell.frame()) return true;
-    const auto numbers = cell.numbers<T>();
-    rows[*cell.frame()].assign(numbers.begin(), numbers.end());
-    return true;
-  });
-  EXPECT_TRUE(read.outcome.ok()) << read.outcome.error;
-  return rows;
-}
 
 // A ball on a rod from (1, 5, 2): made before step 3, ended before step 7.
 TEST(DrawnJoints, ReachFromPlaceToPlaceWhileTheyLast) {

@@ -188,12 +188,14 @@ std::size_t PhysicsWorld::effect_count() const {
 
 std::vector<EffectId> PhysicsWorld::effects_of(BodyId body) const {
   std::vector<EffectId> out;
-  if (!is_valid(body) || state_->effects == nullptr) return out;
+  const bool of_all = body.is_null();
+  if ((!of_all && !is_valid(body)) || state_->effects == nullptr) return out;
   const detail::EffectStore& store = *state_->effects;
   for (std::uint32_t slot = 0; slot < store.info.size(); ++slot) {
     const detail::EffectInfo& effect = store.info[slot];
-    if (effect.alive && (effect.body == body.index || effect.other == body.index))
-      out.push_back(store.id(slot));
+    const bool is_of = of_all ? effect.body == detail::kEveryBody
+                              : effect.body == body.index || effect.other == body.index;
+    if (effect.alive && is_of) out.push_back(store.id(slot));
   }
   return out;
 }

@@ -13,12 +13,15 @@ use re_sdk::blueprint::{
 use re_sdk_types::AsComponents;
 use re_sdk_types::blueprint::archetypes::{EyeControls3D, LineGrid3D};
 use re_sdk_types::blueprint::components::{Eye3DKind, PanelState};
+use re_sdk_types::components::Plane3D;
 
 use crate::failure::{Failure, text_from};
 
 /// Share of the window's width that the 3D views take, beside 2 for the column of the others.
 const WIDTH_OF_3D: f32 = 3.0;
 const WIDTH_OF_OTHERS: f32 = 2.0;
+/// 0xRRGGBBAA
+const GRID_COLOR: u32 = 0xd8e6f070;
 
 #[repr(C)]
 pub struct CView {
@@ -37,6 +40,9 @@ pub struct CLayout {
     eye: [f32; 3],
     target: [f32; 3],
     up: [f32; 3],
+    followed: *const c_char,
+    grid_height: f32,
+    grid_spacing: f32,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -61,6 +67,9 @@ pub struct Layout {
     eye: [f32; 3],
     target: [f32; 3],
     up: [f32; 3],
+    followed: Option<String>,
+    grid_height: f32,
+    grid_spacing: f32,
 }
 
 impl Layout {
@@ -95,6 +104,13 @@ impl Layout {
             eye: layout.eye,
             target: layout.target,
             up: layout.up,
+            followed: if layout.followed.is_null() {
+                None
+            } else {
+                Some(unsafe { text_from(layout.followed, "followed entity")? }.to_owned())
+            },
+            grid_height: layout.grid_height,
+            grid_spacing: layout.grid_spacing,
         })
     }
 
@@ -201,13 +217,25 @@ impl Layout {
             messages.push(LogMsg::ArrowMsg(store.clone(), chunk.to_arrow_msg()?));
             Ok(())
         };
-        add("LineGrid3D", &LineGrid3D::new().with_visible(false))?;
+        let grid = LineGrid3D::new();
+        let grid = if self.grid_spacing > 0.0 {
+            grid.with_visible(true)
+                .with_spacing(self.grid_spacing)
+                .with_plane(Plane3D::new(self.up, self.grid_height))
+                .with_color(GRID_COLOR)
+        } else {
+            grid.with_visible(false)
+        };
+        add("LineGrid3D", &grid)?;
         if self.eye != self.target {
-            let eye = EyeControls3D::new()
+            let mut eye = EyeControls3D::new()
                 .with_kind(Eye3DKind::Orbital)
                 .with_position(self.eye)
                 .with_look_target(self.target)
                 .with_eye_up(self.up);
+            if let Some(entity) = &self.followed {
+                eye = eye.with_tracking_entity(entity.as_str());
+            }
             add("EyeControls3D", &eye)?;
         }
         Ok(messages)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "plumb/effects.h"
 #include "plumb/events.h"
 #include "plumb/inputs.h"
 #include "plumb/report.h"
@@ -29,6 +30,8 @@ struct Frame {
   std::vector<SleepEvent> sleep;         //
   std::vector<QuarantineEvent> refused;  //
   std::vector<JointBreakEvent> broken;   //
+  std::vector<Effect> effects;           // that are drawn, if they changed
+  bool effects_changed = false;          // else they are as they were
   StepReport report;
   bool profiled = false;      // the report has the stages' times
   bool moved = false;         // false: the step was refused, or of no length

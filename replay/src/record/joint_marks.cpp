@@ -10,11 +10,8 @@ namespace replay::detail {
 namespace {
 
 constexpr std::uint32_t kLineColor = 0xf4f1e8ff, kAxisColor = 0xff4fa3ff;
-constexpr std::uint8_t kSolid = 3;  // Rerun's FillMode
 // Thickness and length of the marks, in mean body radii.
 constexpr double kLineRadius = 0.03, kAxisRadius = 0.03, kAxisLength = 0.9;
-
-enum LineColumn : std::size_t { kCenter, kHalfSize, kQuaternion };
 
 template <class Vector>
 float* write(float* out, const Vector& v) {
@@ -45,22 +42,13 @@ bool coupled(const JointKind& kind, JointId& first, JointId& second) {
 }  // namespace
 
 JointMarks::JointMarks() : lines_("world/joints/lines"), axes_("world/joints/axes") {
-  lines_.add_column<float>("Boxes3D:centers", 3);
-  lines_.add_column<float>("Boxes3D:half_sizes", 3);
-  lines_.add_column<float>("Boxes3D:quaternions", 4);
   axes_.add_column<float>("Arrows3D:origins", 3);
   axes_.add_column<float>("Arrows3D:vectors", 3);
 }
 
 void JointMarks::send_looks(rrd::Writer& writer, const SceneExtent& extent) {
-  thickness_ = kLineRadius * extent.body_radius;
   axis_length_ = kAxisLength * extent.body_radius;
-  rrd::Table line(lines_.entity());
-  const std::size_t fill = line.add_column<std::uint8_t>("Boxes3D:fill_mode");
-  const std::size_t line_color = line.add_column<std::uint32_t>("Boxes3D:colors");
-  line.column(fill).append_one(kSolid);
-  line.column(line_color).append_one(kLineColor);
-  line.send_static(writer);
+  lines_.send_look(writer, kLineRadius * extent.body_radius, kLineColor);
   rrd::Table axis(axes_.entity());
   const std::size_t radii = axis.add_column<float>("Arrows3D:radii");
   const std::size_t axis_color = axis.add_column<std::uint32_t>("Arrows3D:colors");
@@ -121,21 +109,7 @@ void JointMarks::rebuild(rrd::Writer& writer, const PhysicsWorld& world, const F
 
 void JointMarks::add(const Frame& frame) {
   if (!announced_) return;
-  auto* center = lines_.column(kCenter).extend<float>(line_parts_.size());
-  auto* half_size = lines_.column(kHalfSize).extend<float>(line_parts_.size());
-  auto* quaternion = lines_.column(kQuaternion).extend<float>(line_parts_.size());
-  for (const Line& line : line_parts_) {
-    const Eigen::Vector3d from = line.from.position(frame), to = line.to.position(frame);
-    const Eigen::Vector3d along = to - from;
-    center = write(center, Eigen::Vector3d((from + to) / 2));
-    half_size = write(half_size, Eigen::Vector3d(thickness_, along.norm() / 2, thickness_));
-    // Lines without length have no direction.
-    const Eigen::Quaterniond turn =
-        along.norm() > 0 ? Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), along)
-                         : Eigen::Quaterniond::Identity();
-    quaternion = write(quaternion, turn.coeffs());
-  }
-  lines_.end_row(frame.number, frame.time);
+  lines_.add(frame, line_parts_);
   auto* origin = axes_.column(0).extend<float>(axis_parts_.size());
   auto* vector = axes_.column(1).extend<float>(axis_parts_.size());
   for (const Anchor& at : axis_parts_) {

@@ -7,6 +7,7 @@
 #include "plumb/world.h"
 #include "record/anchor.h"
 #include "record/frame.h"
+#include "record/line_batch.h"
 #include "record/visuals.h"
 #include "rrd/table.h"
 
@@ -24,17 +25,14 @@ class JointMarks {
   void send(rrd::Writer& writer);
 
  private:
-  // A line between places that follow their bodies.
-  struct Line {
-    Anchor from, to;
-  };
   void add_joint(const PhysicsWorld& world, const Joint& joint, std::span<const std::size_t> slots);
   void send_looks(rrd::Writer& writer, const SceneExtent& extent);
 
-  rrd::Table lines_, axes_;
-  std::vector<Line> line_parts_;
+  LineBatch lines_;
+  rrd::Table axes_;
+  std::vector<AnchoredLine> line_parts_;
   std::vector<Anchor> axis_parts_;
-  double thickness_ = 0, axis_length_ = 0;  // [m]
+  double axis_length_ = 0;  // [m]
   bool announced_ = false;
 };
 

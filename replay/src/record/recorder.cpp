@@ -10,14 +10,18 @@
 #include "plumb/world.h"
 #include "record/body_table.h"
 #include "record/contact_marks.h"
+#include "record/effect_list.h"
 #include "record/frame_queue.h"
 #include "record/joint_marks.h"
 #include "record/labels.h"
 #include "record/plots.h"
 #include "record/replay_tables.h"
+#include "record/spring_marks.h"
 #include "record/text_log.h"
+#include "record/travel.h"
 #include "record/view_layout.h"
 #include "record/visuals.h"
+#include "record/water.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -52,6 +56,8 @@ class Recorder::Run {
   void encode(detail::Frame& frame, const PhysicsWorld* world);
   void read_image(detail::Frame& frame) const;
   void encode_scene(const detail::Frame& frame, const PhysicsWorld* world);
+  void give_effects(detail::Frame& frame);
+  void show_all_places();
   void send();
   [[nodiscard]] bool scene_changed(const detail::Frame& frame, const PhysicsWorld& world) const;
 
@@ -60,11 +66,16 @@ class Recorder::Run {
   detail::BodyTable bodies_;
   detail::ContactMarks contacts_;
   detail::JointMarks joints_;
+  detail::SpringMarks springs_;
+  detail::Water water_;
+  detail::Travel travel_;
   detail::Plots plots_;
   detail::TextLog text_log_;
   detail::SceneExtent extent_;
   int rows_ = 0;
 
+  detail::EffectList effects_;    // of the stepping thread
+  bool effects_changed_ = false;  // and no frame has told it yet
   bool attached_ = false;
   std::uint64_t last_step_ = 0;
   int steps_since_snapshot_ = 0;
@@ -138,6 +149,9 @@ void Recorder::Run::attach(const PhysicsWorld& world) {
   frame.time = world.time();
   world.copy_body_states(frame.bodies);
   extent_ = detail::extent_of(world, frame);
+  travel_.begin(extent_);
+  if (options_.visuals) effects_.collect(world);
+  if (!effects_.empty()) give_effects(frame);
   detail::send_layout(writer_, extent_, options_);
   if (options_.contacts) contacts_.send_looks(writer_, world, frame, extent_);
   if (options_.plots) plots_.send_names(writer_);
@@ -194,7 +208,10 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   frame.refused.assign(events.quarantined.begin(), events.quarantined.end());
   frame.broken.assign(events.broken_joints.begin(), events.broken_joints.end());
   frame.has_snapshot = false;
+  frame.effects_changed = false;
+  if (options_.visuals) effects_changed_ |= effects_.follow(frame.inputs, world);
   if (!frame.moved) return;
+  if (effects_changed_) give_effects(frame);
   world.copy_image(frame.image);
   frame.profiled = world.settings().profiling;
   frame.has_snapshot = ++steps_since_snapshot_ >= options_.snapshot_every;
@@ -221,11 +238,18 @@ void Recorder::Run::step(const StepView& view) {
     cost_.body_steps += view.world.body_count();
   }
   if (frame->moved && scene_changed(*frame, view.world)) {
+    if (!effects_.empty()) give_effects(*frame);  // bodies stand in other places of the list
     queue_.drain();
     encode(*frame, &view.world);
   } else {
     queue_.push(std::move(frame));
   }
+}
+
+void Recorder::Run::give_effects(detail::Frame& frame) {
+  effects_.copy_to(frame.effects);
+  frame.effects_changed = true;
+  effects_changed_ = false;
 }
 
 void Recorder::Run::encode_scene(const detail::Frame& frame, const PhysicsWorld* world) {
@@ -238,6 +262,29 @@ void Recorder::Run::encode_scene(const detail::Frame& frame, const PhysicsWorld*
     joints_.add(frame);
     labels_.add(frame);
   }
+  if (frame.effects_changed) {
+    springs_.rebuild(writer_, frame, extent_);
+    water_.rebuild(writer_, frame, extent_);
+  } else {
+    springs_.add(frame);
+  }
+  travel_.add(frame);
+}
+
+// Whoever left the first view is seen in another one, and in water that reaches so far.
+void Recorder::Run::show_all_places() {
+  using View = detail::Travel::View;
+  const View view = travel_.view();
+  if (view == View::AsBegun || !ok_) return;
+  const detail::SceneExtent everywhere = travel_.everywhere();
+  water_.widen(everywhere);
+  detail::FartherView farther;
+  farther.grid_height = water_.height(extent_.up).value_or(travel_.lowest());
+  if (view == View::Following) {
+    farther.followed = travel_.middle_entity();
+    travel_.send_middle(writer_);
+  }
+  detail::send_layout(writer_, travel_.seen(), options_, farther);
 }
 
 void Recorder::Run::read_image(detail::Frame& frame) const {
@@ -277,6 +324,8 @@ void Recorder::Run::send() {
   bodies_.send(writer_);
   visuals_.send(writer_);
   joints_.send(writer_);
+  springs_.send(writer_);
+  water_.send(writer_);
   labels_.send(writer_);
   contacts_.send(writer_);
   plots_.send(writer_);
@@ -294,6 +343,7 @@ Outcome Recorder::Run::flush(double timeout, bool durable) {
 Outcome Recorder::Run::close(double timeout) {
   queue_.drain();
   if (!writer_.is_open()) return status();
+  if (options_.visuals) show_all_places();
   send();
   const Outcome closed = writer_.close(timeout);
   if (!closed.ok()) fail(closed.error);

@@ -26,13 +26,19 @@ void send_axes(rrd::Writer& writer, const Eigen::Vector3d& up) {
   axes.send_static(writer);
 }
 
+// The power of ten below or at it [m].
+double round_length(double length) {
+  return length > 0 ? std::pow(10, std::floor(std::log10(length))) : 1;
+}
+
 void copy_to(const Eigen::Vector3d& v, float (&out)[3]) {
   std::transform(v.data(), v.data() + 3, out, [](double x) { return static_cast<float>(x); });
 }
 
 }  // namespace
 
-void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options) {
+void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options,
+                 const std::optional<FartherView>& farther) {
   rrd::Layout layout;
   layout.timeline = rrd::kFrameTimeline;
   layout.frames_per_second = static_cast<float>(options.frames_per_second);
@@ -56,6 +62,11 @@ void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderO
   copy_to(eye, layout.eye);
   copy_to(target, layout.target);
   copy_to(up, layout.up);
+  if (farther) {
+    layout.followed = farther->followed;
+    layout.grid_height = static_cast<float>(farther->grid_height);
+    layout.grid_spacing = static_cast<float>(round_length(extent.radius));
+  }
   send_axes(writer, up);
   writer.send_layout(layout);
 }

@@ -80,13 +80,17 @@ typedef struct plumb_rr_view {
   uint32_t tab;         /* views with the same number share a place in the column, as tabs */
 } plumb_rr_view;
 
-/* Layout shown when the file is opened: 3D views left, the others in a column right. */
+/* Layout shown when the file is opened: 3D views left, the others in a column right. Of several
+ * the last one is shown. */
 typedef struct plumb_rr_layout {
   const plumb_rr_view* views;
   size_t view_count;
   const char* timeline;           /* that the time panel stands on */
   float frames_per_second;        /* > 0, playback of a sequence timeline */
   float eye[3], target[3], up[3]; /* first 3D view; eye equal to target: left to the viewer */
+  const char* followed;           /* entity that the eye goes with; null: none */
+  float grid_height;              /* along `up` [m], of a grid of lines */
+  float grid_spacing;             /* [m]; 0: no grid */
 } plumb_rr_layout;
 
 typedef struct plumb_rr_writer plumb_rr_writer;

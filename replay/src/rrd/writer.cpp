@@ -61,6 +61,9 @@ void Writer::send_layout(const Layout& layout) {
   std::copy(std::begin(layout.eye), std::end(layout.eye), c_layout.eye);
   std::copy(std::begin(layout.target), std::end(layout.target), c_layout.target);
   std::copy(std::begin(layout.up), std::end(layout.up), c_layout.up);
+  c_layout.followed = layout.followed.empty() ? nullptr : layout.followed.c_str();
+  c_layout.grid_height = layout.grid_height;
+  c_layout.grid_spacing = layout.grid_spacing;
   ErrorText error{};
   (void)keep(plumb_rr_send_layout(handle_, &c_layout, error.data(), error.size()), error.data());
 }

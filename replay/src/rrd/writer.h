@@ -24,6 +24,9 @@ struct Layout {
   std::string timeline;
   float frames_per_second = 60;
   float eye[3] = {0, 0, 0}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+  std::string followed;    // entity that the eye goes with; empty: none
+  float grid_height = 0;   // [m] along up
+  float grid_spacing = 0;  // [m] 0: no grid
 };
 
 class Writer {
