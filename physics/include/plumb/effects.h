@@ -89,9 +89,9 @@ struct AeroSurface {
   Vec3 wind = Vec3::Zero();             // [m/s] velocity of the air
 };
 
-// A fluid below the plane normal . x = level: weight of the displaced fluid upwards (against the
-// world's gravity) at the centre of the displaced volume, and drag there. The volume
-// is that of the real shapes, cut exactly (src/effects/displacement.h).
+// A fluid below the plane n . x = level (n: `normal` made unit): weight of the displaced fluid
+// upwards (against the world's gravity) at the centre of the displaced volume, and drag there. The
+// volume is that of the real shapes, cut exactly (src/effects/displacement.h).
 struct Buoyancy {
   Real density = Real(1000);    // [kg/m^3] > 0
   Vec3 normal = Vec3::UnitY();  // up, any length > 0

@@ -180,7 +180,8 @@ class PhysicsWorld {
   [[nodiscard]] std::size_t joint_count() const;
   [[nodiscard]] bool is_valid(EffectId effect) const;
   [[nodiscard]] Effect effect(EffectId effect) const;
-  [[nodiscard]] std::vector<EffectId> effects_of(BodyId body) const;  // by index; not the world's
+  [[nodiscard]] std::vector<EffectId> effects_of(
+      BodyId body) const;  // by index; null: those of all
   [[nodiscard]] std::size_t effect_count() const;
   [[nodiscard]] EffectReport effect_report(EffectId effect) const;
   [[nodiscard]] EffectLedger effect_ledger() const;
