@@ -79,7 +79,7 @@ TEST_F(ProgramOutput, NothingButAFileIsEverReplaced) {
 
 TEST_F(ProgramOutput, ARecordingGoesToWhereALinkPoints) {
   fs::create_directory(file("elsewhere"));
-  write("elsewhere/old.rrd", "what was there before");
+  (void)write("elsewhere/old.rrd", "what was there before");
   fs::create_symlink("elsewhere/old.rrd", file("link.rrd"));
   const Outcome run = plumb(kShortRun + file("link.rrd"));
   EXPECT_EQ(run.code, 0) << run.output;
