@@ -335,17 +335,19 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
     row.points[p.index].friction1_sum += dot(row.t1, given);
     row.points[p.index].friction2_sum += dot(row.t2, given);
   }
-  const std::uint32_t seen_from = row.body_a != 0 ? row.body_a : row.body_b;
-  const Vec moved =
-      world.delta[seen_from].dp +
-      t * (world.bodies.velocity[seen_from].v + (Real(0.5) * t) * impacts.acceleration(seen_from));
-  note_bounce(world, row, n, world.bodies.pose[seen_from].x + cast<PosReal>(moved + middle),
-              approach, impulse);
+  if (approach > Real(0)) {  // points that part already, or rest, are no hit
+    const std::uint32_t seen_from = row.body_a != 0 ? row.body_a : row.body_b;
+    const Vec moved =
+        world.delta[seen_from].dp + t * (world.bodies.velocity[seen_from].v +
+                                         (Real(0.5) * t) * impacts.acceleration(seen_from));
+    note_bounce(world, row, n, world.bodies.pose[seen_from].x + cast<PosReal>(moved + middle),
+                approach, impulse);
+    ++world.report.impacts;
+  }
   deflect(impacts, row.body_a, A, A.v - va_before, t);
   deflect(impacts, row.body_b, B, B.v - vb_before, t);
   ++row.bounces;
   row.bounced = true;
-  ++world.report.impacts;
 }
 
 // After the bounces: which rows does the contact solver leave alone in this substep?

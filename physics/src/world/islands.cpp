@@ -58,7 +58,11 @@ void update_rest_time(WorldState& world, std::uint32_t dense) {
   BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
   if (info.type != MotionType::Dynamic) return;
   const BodyVelocity& velocity = world.bodies.velocity[dense];
-  const Real speed = length(velocity.v) + length(velocity.w) * info.radius;
+  // What is being pushed out of an overlap, or drawn back by a joint, moves without a velocity.
+  const BodyDelta& path = world.delta[dense];
+  const Real turned = Real(2) * length(Vec{path.dq.x, path.dq.y, path.dq.z});
+  const Real moved = (length(path.dp) + turned * info.radius) / world.dt;
+  const Real speed = std::max(length(velocity.v) + length(velocity.w) * info.radius, moved);
   // What nothing supports is not at rest, however slow it is at the moment: it floats or turns
   // back.
   const bool supported = world.substep[dense].constrained || world.substep[dense].balanced;

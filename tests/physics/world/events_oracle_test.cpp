@@ -188,5 +188,24 @@ TEST(Events, AHitsImpulseIsWhatTurnsTheBodyBack) {
   }
 }
 
+// A hit is an approach that was stopped: boxes that come to rest tell no others on their way.
+TEST(Events, EveryHitHasASpeedAndAnImpulse) {
+  PhysicsWorld world;
+  add_floor(world, material(0.4, 0.4));
+  for (int i = 0; i < 8; ++i)
+    add(world, body_at(at(0.2 * (i % 3), 1 + 1.2 * i, 0.1 * (i % 2))),
+        with(box(0.5, 0.4, 0.3), material(0.4, 0.4)));
+  int hits = 0;
+  for (int step = 0; step < 300; ++step) {
+    world.step(kDt);
+    for (const HitEvent& hit : world.events().hits) {
+      ++hits;
+      ASSERT_GT(hit.approach_speed, Real(0)) << "step " << step;
+      ASSERT_GT(hit.impulse, Real(0)) << "step " << step;
+    }
+  }
+  EXPECT_GT(hits, 20);
+}
+
 }  // namespace
 }  // namespace plumb::inline PLUMB_ABI

@@ -185,6 +185,30 @@ TEST(Sleep, ABodyMayStartAsleepAndStaysUntilTouched) {
   EXPECT_LT(position(world, hovering).y(), 4);
 }
 
+// Overlap is worked off by moving bodies, not by throwing them: they have no velocity meanwhile.
+TEST(Sleep, NothingFallsAsleepWhileItIsPushedOut) {
+  PhysicsWorld world;
+  add_floor(world);
+  const BodyId sunk = add(world, body_at(at(0, -1.9, 0)), with(cube(2)));
+  run(world, 10);
+  EXPECT_FALSE(world.is_awake(sunk));
+  EXPECT_NEAR(position(world, sunk).y(), 2, 0.01 * 4);
+}
+
+TEST(Sleep, NothingFallsAsleepWhileAJointDrawsItBack) {
+  PhysicsWorld world;
+  const BodyId post = must(world.create_body(body_at(at(0, 5, 0), MotionType::Static)));
+  const BodyId weight = add(world, body_at(at(0, 2, 0)), with(sphere(0.25)));
+  Joint rope;
+  rope.body_a = post;
+  rope.body_b = weight;
+  rope.kind = RopeJoint{1};
+  must(world.create_joint(rope));
+  run(world, 10);
+  EXPECT_FALSE(world.is_awake(weight));
+  EXPECT_NEAR(position(world, weight).y(), 4, 0.01);
+}
+
 TEST(Sleep, TimeToSleepIsObeyed) {
   for (double wait : {0.25, 2.0}) {
     WorldSettings settings;
