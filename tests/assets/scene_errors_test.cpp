@@ -131,6 +131,9 @@ const BadScene kBadScenes[] = {
     {"MassImpossible",
      "{\"plumb_scene\": 1, \"bodies\": [{\n\"mass\": {\"mass\": 1, \"inertia\": [1, 1, 5]}}]}", 2,
      "mass of body 'body 0'", ""},
+    {"InertiaOfFour",
+     "{\"plumb_scene\": 1, \"bodies\": [{\n\"mass\": {\"mass\": 1, \"inertia\": [1, 1, 1, 0]}}]}",
+     2, "'inertia' of mass of body 'body 0' has 4 entries", "write 3 numbers [xx, yy, zz], or 6"},
     {"LayerTooHigh",
      "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
      "1,\n\"layers\": "

@@ -116,6 +116,33 @@ TEST(SceneInstantiate, MeshBodiesWeighWhatTheMeshWeighs) {
   EXPECT_NE(instance->notes[0].find("'torus'"), std::string::npos);
 }
 
+// Where nothing brings a mass, the world makes a point of 1 kg: the scene's author is told.
+TEST(SceneInstantiate, TellsOfCollidersThatBringNoMass) {
+  const auto scene = parse_scene(R"({
+    "plumb_scene": 1,
+    "bodies": [
+      { "name": "hollow", "colliders": [{ "shape": "sphere", "radius": 1, "density": 0 }] },
+      { "name": "seeing", "colliders": [{ "shape": "sphere", "radius": 1, "sensor": true }] },
+      { "name": "still", "type": "static",
+        "colliders": [{ "shape": "sphere", "radius": 1, "density": 0 }] },
+      { "name": "partly", "colliders": [{ "shape": "sphere", "radius": 1, "density": 0 },
+                                        { "shape": "sphere", "radius": 1 }] },
+      { "name": "given", "mass": { "mass": 2, "inertia": [1, 1, 1] },
+        "colliders": [{ "shape": "sphere", "radius": 1, "density": 0 }] },
+      { "name": "point" }
+    ]
+  })",
+                                 "test.json");
+  ASSERT_TRUE(scene.ok()) << scene.error();
+  PhysicsWorld world;
+  const auto instance = instantiate(*scene, world);
+  ASSERT_TRUE(instance.ok()) << instance.error();
+  ASSERT_EQ(instance->notes.size(), 2u);
+  EXPECT_NE(instance->notes[0].find("'hollow'"), std::string::npos) << instance->notes[0];
+  EXPECT_NE(instance->notes[1].find("'seeing'"), std::string::npos) << instance->notes[1];
+  EXPECT_EQ(world.mass_properties(instance->find("hollow")).mass, 1);  // as the note says
+}
+
 TEST(SceneInstantiate, LeavesTheWorldAloneOnAnError) {
   PhysicsWorld world;
   const auto kept = world.create_body(RigidBody{});

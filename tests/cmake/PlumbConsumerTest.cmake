@@ -16,6 +16,7 @@ add_test(NAME consumer.configure
           "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
           "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
           "-DCMAKE_EXE_LINKER_FLAGS=${CMAKE_EXE_LINKER_FLAGS}"
+          "-DPRECISIONS=${PLUMB_ALL_PRECISIONS}"
           "-DSANITIZE=${PLUMB_SANITIZE}"
           "-DCOMPONENTS=${consumer_components}")
 add_test(NAME consumer.build COMMAND ${CMAKE_COMMAND} --build "${consumer_dir}/build")
@@ -28,7 +29,11 @@ set_tests_properties(consumer.configure PROPERTIES
 set_tests_properties(consumer.build PROPERTIES
   FIXTURES_REQUIRED consumer_configured FIXTURES_SETUP consumer_built)
 
-foreach(program IN ITEMS drop_ball drop_ball_f32 drop_ball_f32d drop_ball_f64 all_components)
+set(consumer_programs drop_ball all_components)
+foreach(precision IN LISTS PLUMB_ALL_PRECISIONS)
+  list(APPEND consumer_programs drop_ball_${precision})
+endforeach()
+foreach(program IN LISTS consumer_programs)
   add_test(NAME consumer.${program} COMMAND "${consumer_dir}/build/${program}")
   set_tests_properties(consumer.${program} PROPERTIES FIXTURES_REQUIRED consumer_built)
 endforeach()

@@ -1,41 +1,15 @@
 // Invariant: the `plumb` program does what its help says, tells bad input (2) from a failed run or
 // check (1), and leaves no half-written file under the final name.
-#include <sys/wait.h>
-
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "gtest/gtest.h"
+#include "integration/run_program.h"
 
 namespace {
 
-namespace fs = std::filesystem;
-
-const std::string kScenes = std::string(PLUMB_SOURCE_DIR) + "/assets/scenes/";
-const std::string kModels = std::string(PLUMB_SOURCE_DIR) + "/assets/models/";
-
-struct Outcome {
-  int code = -1;
-  std::string output;  // stdout and stderr
-};
-
-Outcome plumb(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((std::string(PLUMB_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return outcome;
-  char buffer[4096];
-  for (std::size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;)
-    outcome.output.append(buffer, n);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
-bool says(const Outcome& outcome, const std::string& text) {
-  return outcome.output.find(text) != std::string::npos;
-}
+using namespace plumb_program;  // NOLINT(google-build-using-namespace)
 
 // The line of a summary that begins with this word.
 std::string line_of(const Outcome& outcome, const std::string& word) {
@@ -44,31 +18,6 @@ std::string line_of(const Outcome& outcome, const std::string& word) {
              ? ""
              : outcome.output.substr(first, outcome.output.find('\n', first) - first);
 }
-
-class Program : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("plumb_program_") +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  [[nodiscard]] std::string file(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return file(name);
-  }
-  [[nodiscard]] std::size_t files() const {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-
-  fs::path folder_;
-};
 
 TEST_F(Program, HelpsAndTellsItsVersion) {
   const Outcome help = plumb("--help");

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <random>
 
 #include "recorded_run.h"
 
@@ -109,6 +110,38 @@ TEST(MalformedFile, GarbageInTheMiddleIsFound) {
   const auto result = replay::verify(path);
   EXPECT_FALSE(result.outcome.ok());
   EXPECT_TRUE(mentions(result.outcome.error, path)) << result.outcome.error;
+}
+
+// Bits that tip over in transit: whatever they hit, an error names the file and says that it is
+// damaged, the libraries below keep their own words and traces to themselves, and nothing crashes.
+TEST(MalformedFile, TippedBitsAreToldAsDamageAndNothingElseIsPrinted) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("run.rrd");
+  record_run(path, 20, {.visuals = false, .contacts = false, .plots = false, .text_log = false});
+  std::string whole;
+  {
+    std::ifstream file(path, std::ios::binary);
+    whole.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  std::minstd_rand random(1);
+  int damaged = 0;
+  testing::internal::CaptureStderr();
+  for (int k = 0; k < 400; ++k) {
+    std::string bytes = whole;
+    bytes[random() % bytes.size()] ^= static_cast<char>(1u << random() % 8);
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+    const std::string error = replay::verify(path).outcome.error;
+    EXPECT_TRUE(error.empty() || mentions(error, path)) << error;
+    EXPECT_FALSE(mentions(error, "a defect in the recording bridge")) << error;
+    if (mentions(error, "damaged at byte")) ++damaged;
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_GT(damaged, 20);
+}
+
+TEST(MalformedFile, AFolderIsCalledOne) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(mentions(replay::info(folder.path()).outcome.error, "it is a folder"));
 }
 
 TEST(MalformedFile, ARecordingOfSomebodyElseIsNamed) {

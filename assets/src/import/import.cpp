@@ -147,6 +147,8 @@ Result<Imported> read(const std::string& path, const ImportOptions& options) {
   }
   std::error_code code;
   const std::filesystem::path file(path);
+  if (std::filesystem::is_directory(file, code))
+    return failure("this is a folder; give the path of a mesh file");
   if (!std::filesystem::is_regular_file(file, code)) return failure("there is no such file");
   const std::uintmax_t bytes = std::filesystem::file_size(file, code);
   if (code) return failure("its size cannot be read: " + code.message());
@@ -170,6 +172,8 @@ Result<Imported> read(const std::string& path, const ImportOptions& options) {
   const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     const std::string reason = importer.GetErrorString();
+    if (reason == "std::bad_alloc")
+      return failure("asks for more memory than there is for it; is it damaged?");
     return failure("cannot be read as a mesh: " + (reason.empty() ? "unknown reason" : reason));
   }
 

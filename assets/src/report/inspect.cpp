@@ -12,6 +12,12 @@ Result<MeshInspection> inspect_mesh_file(const std::string& path, const InspectO
   MeshInspection inspection;
   inspection.mesh = std::move(imported.value().mesh);
   inspection.import = std::move(imported.value().report);
+  if (options.repair) {
+    Result<Repaired> repaired = repair(inspection.mesh, *options.repair);
+    if (!repaired) return Error{"'" + path + "': " + repaired.error()};
+    inspection.repaired = repaired->text();
+    inspection.mesh = std::move(repaired.value().mesh);
+  }
   inspection.certificate = certify(inspection.mesh);
   Result<MeshMass> mass = mass_of_mesh(inspection.mesh, inspection.certificate, options.mass);
   if (mass) {

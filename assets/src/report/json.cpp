@@ -140,6 +140,7 @@ std::string to_json(const MeshInspection& inspection) {
   json["schema"] = "plumb-mesh/1";
   json["name"] = inspection.mesh.name;
   json["import"] = import_json(inspection.import);
+  if (!inspection.repaired.empty()) json["repaired"] = inspection.repaired;
   json["certificate"] = certificate_json(inspection.certificate);
   json["mass"] = inspection.mass ? mass_json(*inspection.mass) : Json(nullptr);
   if (!inspection.mass) json["mass_error"] = inspection.mass_error;

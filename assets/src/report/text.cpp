@@ -73,6 +73,7 @@ void write_file(Page& page, const MeshInspection& inspection) {
   page.row("middle", vector_text(inspection.certificate.bounds.center(), "m"));
   page.row("coordinate rounding", format("%.3g m", r.coordinate_rounding));
   for (const std::string& note : r.notes) page.row("note", note);
+  if (!inspection.repaired.empty()) page.row("repaired", inspection.repaired);
 }
 
 void write_certificate(Page& page, const MeshCertificate& c) {

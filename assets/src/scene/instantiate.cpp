@@ -123,6 +123,17 @@ Result<Template> make_template(const Scene& scene, const SceneBody& body, MeshSt
   return out;
 }
 
+// What there is to say about the mass of a body whose colliders bring none; empty if nothing.
+std::string note_on_mass(const SceneBody& source, const Template& model) {
+  if (source.body.type != MotionType::Dynamic || model.body.mass || model.colliders.empty())
+    return {};
+  for (const Collider& collider : model.colliders)
+    if (!collider.is_sensor && collider.density > Real(0)) return {};
+  return "body '" + source.name +
+         "' has no collider with a mass, so that it is a point of 1 kg that does not turn; give "
+         "one of them a density, or the body a mass";
+}
+
 std::string world_error(const Scene& scene, int line, const std::string& name,
                         const Status& status) {
   return place_of(scene, line) + ": body '" + name + "': " + status.message;
@@ -218,6 +229,8 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
   for (const SceneBody& body : scene.bodies) {
     const Result<Template> model = make_template(scene, body, meshes, shapes);
     if (!model.ok()) return Error{model.error()};
+    if (std::string note = note_on_mass(body, model.value()); !note.empty())
+      instance.notes.push_back(std::move(note));
     const std::vector<scene::RepeatPlace> places =
         body.repeat ? scene::places_of(*body.repeat) : std::vector<scene::RepeatPlace>(1);
     for (std::size_t k = 0; k < places.size(); ++k) {

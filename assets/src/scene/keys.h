@@ -28,8 +28,10 @@ inline constexpr std::string_view kMaterialPair[] = {"kinds", "friction", "resti
                                                      "rolling_friction", "torsional_friction"};
 inline constexpr std::string_view kExcludedPair[] = {"body_a", "body_b", "collider_a",
                                                      "collider_b"};
-inline constexpr std::string_view kMesh[] = {"file",    "metres_per_unit",   "up",      "collision",
-                                             "density", "max_hull_vertices", "mass_of", "parts"};
+inline constexpr std::string_view kMesh[] = {
+    "file",    "metres_per_unit",   "up",      "repair", "collision",
+    "density", "max_hull_vertices", "mass_of", "parts"};
+inline constexpr std::string_view kMeshRepair[] = {"weld_tolerance", "orient"};
 inline constexpr std::string_view kMeshParts[] = {"max_distance", "max_parts", "max_vertices"};
 inline constexpr std::string_view kMassOf[] = {"method", "thickness", "resolution"};
 inline constexpr std::string_view kBody[] = {"name",
@@ -123,7 +125,7 @@ struct Named {
   std::string_view name;
   Keys keys;
 };
-inline constexpr std::array<Named, 35> kAll{{{"scene", kScene},
+inline constexpr std::array<Named, 36> kAll{{{"scene", kScene},
                                              {"step", kStep},
                                              {"settings", kSettings},
                                              {"material", kMaterial},
@@ -131,6 +133,7 @@ inline constexpr std::array<Named, 35> kAll{{{"scene", kScene},
                                              {"excluded_pair", kExcludedPair},
                                              {"surface_velocity", kSurfaceVelocity},
                                              {"mesh", kMesh},
+                                             {"mesh_repair", kMeshRepair},
                                              {"mesh_parts", kMeshParts},
                                              {"mass_of", kMassOf},
                                              {"body", kBody},

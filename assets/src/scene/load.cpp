@@ -183,9 +183,15 @@ Result<Scene> parse_scene(std::string_view text, const std::string& name,
 
 Result<Scene> load_scene(const std::string& path) {
   std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem)) {
-    return Error{path + ": there is no such file; give the path of a scene, for example " +
-                 "assets/scenes/default.json"};
+  const std::filesystem::file_status status = std::filesystem::status(path, problem);
+  if (!std::filesystem::is_regular_file(status)) {
+    const char* what = std::filesystem::is_directory(status) ? "this is a folder and not a file"
+                       : std::filesystem::exists(status)
+                           ? "this is a device or a pipe; scenes are read from files, since what "
+                             "they name counts from their folder"
+                           : "there is no such file";
+    return Error{(path.empty() ? "\"\"" : path) + ": " + what +
+                 "; give the path of a scene, for example assets/scenes/default.json"};
   }
   if (std::filesystem::file_size(path, problem) > kLargestSceneFile) {
     return Error{path + ": the file is too large for a scene (64 MB); is it a mesh?"};

@@ -4,6 +4,7 @@
 
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
+#include "plumb/assets/repair.h"
 #include "plumb/assets/to_physics.h"
 
 namespace plumb::inline PLUMB_ABI::assets::scene {
@@ -11,6 +12,8 @@ namespace {
 
 // A hull this much larger than its mesh is worth a note: things will rest on air.
 constexpr double kNotableHullExcess = 0.05;  // relative volume
+// A body longer than this is more often one whose file is in millimetres.
+constexpr double kDoubtfulSize = 100;  // [m]
 
 }  // namespace
 
@@ -18,6 +21,32 @@ std::string MeshStore::place_of(const SceneMesh& mesh) const {
   std::string place = scene_.source;
   if (mesh.line > 0) place += ":" + std::to_string(mesh.line);
   return place + ": mesh '" + mesh.name + "': ";
+}
+
+std::string MeshStore::read(PreparedMesh& prepared) const {
+  const SceneMesh& source = *prepared.source;
+  ImportOptions options;
+  options.metres_per_unit = source.metres_per_unit;
+  options.file_up = source.up;
+  Result<Imported> imported = import_mesh(source.path, options);
+  if (!imported.ok()) return imported.error();
+  prepared.mesh = std::move(imported.value().mesh);
+  if (source.repair) {
+    Result<Repaired> repaired = repair(prepared.mesh, *source.repair);
+    if (!repaired.ok()) return repaired.error();
+    prepared.notes.push_back("mesh '" + source.name + "' was repaired: " + repaired->text());
+    prepared.mesh = std::move(repaired.value().mesh);
+  }
+  const double longest = bounds_of(prepared.mesh).size().maxCoeff();
+  const bool assumed = imported->report.unit_origin == Origin::Unknown;
+  if (assumed && longest > kDoubtfulSize && source.collision != SceneMesh::Collision::Surface) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.4g m", longest);
+    prepared.notes.push_back("mesh '" + source.name + "' is " + text +
+                             " long, and its file tells no unit: metres were assumed; give "
+                             "metres_per_unit, 0.001 if it is in millimetres");
+  }
+  return {};
 }
 
 std::string MeshStore::make_hull(PreparedMesh& prepared) {
@@ -54,15 +83,10 @@ Result<std::size_t> MeshStore::index_of(const std::string& name) {
 
   const SceneMesh* source = scene_.find_mesh(name);
   if (!source) return Error{scene_.source + ": there is no mesh '" + name + "'"};
-  ImportOptions options;
-  options.metres_per_unit = source->metres_per_unit;
-  options.file_up = source->up;
-  Result<Imported> imported = import_mesh(source->path, options);
-  if (!imported.ok()) return Error{place_of(*source) + imported.error()};
-
   PreparedMesh prepared;
   prepared.source = source;
-  prepared.mesh = std::move(imported.value().mesh);
+  if (const std::string wrong = read(prepared); !wrong.empty())
+    return Error{place_of(*source) + wrong};
   std::string wrong;
   switch (source->collision) {
     case SceneMesh::Collision::Hull:
@@ -86,7 +110,11 @@ Result<MassProperties> MeshStore::mass_of(const std::string& name, std::optional
   PreparedMesh& mesh = meshes_[index.value()];
   if (!mesh.mass) {
     const Result<MeshMass> mass = mass_of_mesh(mesh.mesh, mesh.source->mass);
-    if (!mass.ok()) return Error{place_of(*mesh.source) + mass.error()};
+    if (!mass.ok()) {
+      return Error{place_of(*mesh.source) + mass.error() +
+                   "; in a scene these are keys of the mesh: \"repair\": {\"orient\": true}, and "
+                   "\"mass_of\": {\"method\": \"hull\"} for the method"};
+    }
     const Result<MassProperties> properties = to_physics(mass.value());
     if (!properties.ok()) return Error{place_of(*mesh.source) + properties.error()};
     mesh.mass = properties.value();
@@ -103,6 +131,7 @@ void MeshStore::move_into(SceneInstance& instance) {
   for (PreparedMesh& mesh : meshes_) {
     SceneInstanceMesh& out = instance.meshes.emplace_back();
     out.name = mesh.source->name;
+    instance.notes.insert(instance.notes.end(), mesh.notes.begin(), mesh.notes.end());
     if (mesh.surface && mesh.surface->odd_edges() > 0) {
       instance.notes.push_back("mesh '" + out.name + "' has " +
                                std::to_string(mesh.surface->odd_edges()) +

@@ -23,6 +23,7 @@ struct PreparedMesh {
   std::optional<MassProperties> mass;  // at the density of the scene's mesh
   double density = 0;                  // [kg/m^3] of `mass`
   double volume = 0;                   // [m^3] inside the mesh; 0 if not known
+  std::vector<std::string> notes;      // on how it was read
 };
 
 class MeshStore {
@@ -39,6 +40,7 @@ class MeshStore {
  private:
   [[nodiscard]] std::string place_of(const SceneMesh& mesh) const;
   // An empty text: it went well.
+  std::string read(PreparedMesh& prepared) const;
   static std::string make_hull(PreparedMesh& prepared);
   static std::string make_surface(PreparedMesh& prepared);
   static std::string make_parts(PreparedMesh& prepared);

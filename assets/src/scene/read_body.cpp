@@ -79,6 +79,13 @@ void read_mass(const ObjectReader& in, SceneBody& body) {
   }
   double t[6] = {0, 0, 0, 0, 0, 0};
   const bool diagonal = inertia->kind == JsonNode::Kind::Array && inertia->items.size() == 3;
+  if (inertia->kind == JsonNode::Kind::Array && !diagonal && inertia->items.size() != 6) {
+    in.problems().add(inertia->line,
+                      "'inertia' of " + parts.what() + " has " +
+                          std::to_string(inertia->items.size()) + " entries",
+                      "write 3 numbers [xx, yy, zz], or 6 [xx, yy, zz, xy, xz, yz], in kg m^2");
+    return;
+  }
   if (!parts.numbers("inertia", t, diagonal ? 3 : 6) || !good) return;
   properties.I_Bcm_B << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
   const Status status = check(properties);

@@ -46,6 +46,14 @@ void read_mesh_parts(const JsonNode& node, const std::string& what, DecomposeOpt
   out.max_part_vertices = static_cast<std::size_t>(vertices);
 }
 
+void read_mesh_repair(const JsonNode& node, const std::string& what, RepairOptions& out,
+                      Problems& problems) {
+  const ObjectReader in(node, "repair of " + what, keys::kMeshRepair, problems);
+  if (!in.is_object()) return;
+  in.number("weld_tolerance", out.weld_tolerance, kNotNegative);
+  in.flag("orient", out.orient);
+}
+
 void read_mass_of(const JsonNode& node, const std::string& what, MassOptions& out,
                   Problems& problems) {
   const std::string part = "mass_of of " + what;
@@ -87,6 +95,8 @@ void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, P
   if (in.number("metres_per_unit", scale, kPositive)) mesh.metres_per_unit = scale;
   Axis up = Axis::Y;
   if (in.choice("up", kAxes, up)) mesh.up = up;
+  if (const JsonNode* repair = in.find("repair"))
+    read_mesh_repair(*repair, what, mesh.repair.emplace(), problems);
   in.choice("collision", kCollisions, mesh.collision);
   if (!in.has("collision")) {
     in.missing(

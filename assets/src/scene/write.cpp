@@ -75,6 +75,10 @@ Json json_of(const SceneMesh& mesh) {
   out["file"] = mesh.file;
   if (mesh.metres_per_unit) out["metres_per_unit"] = *mesh.metres_per_unit;
   if (mesh.up) out["up"] = word(scene::kAxes, *mesh.up);
+  if (mesh.repair) {
+    out["repair"] = {{"weld_tolerance", mesh.repair->weld_tolerance},
+                     {"orient", mesh.repair->orient}};
+  }
   out["collision"] = word(scene::kCollisions, mesh.collision);
   if (mesh.collision == SceneMesh::Collision::Surface) return out;
   if (mesh.collision == SceneMesh::Collision::Hull) {

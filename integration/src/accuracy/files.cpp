@@ -34,18 +34,21 @@ std::string make_folder(const std::string& path) {
 }
 
 std::string write_whole(const std::string& path, const std::string& text) {
-  const std::string part = path + ".part";
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return path + " is a folder; give the name of a file";
+  // A device or a pipe is written to: renaming a file onto it would put the file in its place.
+  const bool is_device = fs::exists(path, ignored) && !fs::is_regular_file(path, ignored);
+  const std::string part = is_device ? path : path + ".part";
   {
     std::ofstream file(part, std::ios::binary | std::ios::trunc);
     file << text;
     file.flush();
     if (!file) {
-      std::error_code error;
-      fs::remove(part, error);
+      if (!is_device) fs::remove(part, ignored);
       return path + " cannot be written";
     }
   }
-  return rename_to(part, path);
+  return is_device ? std::string() : rename_to(part, path);
 }
 
 bool has_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }

@@ -33,6 +33,8 @@ struct MeshOptions {
   double density = 1000;  // [kg/m^3]
   double thickness = 0;   // [m] of a shell
   std::optional<double> metres_per_unit;
+  std::optional<double> weld;            // [m] >= 0; asks for a repair too
+  bool repair = false;                   // drop needless faces and turn the others outwards
   bool parts = false;                    // cut it into convex parts
   std::optional<double> parts_distance;  // [m] the same, with this distance
   std::size_t max_parts = 32;

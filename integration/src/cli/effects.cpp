@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/output_path.h"
 #include "plumb/world.h"
 
 namespace plumb::cli {
@@ -103,6 +104,10 @@ double step_time(const EffectKind* kind) {
 }  // namespace
 
 int print_effect_prices(const std::string& csv) {
+  if (const std::string wrong = csv.empty() ? "" : why_no_file(csv); !wrong.empty()) {
+    complain(wrong);
+    return kBadInput;
+  }
   std::vector<Price> prices = all_effects();
   const double bare = step_time(nullptr);
   double dearest = 0;
@@ -125,7 +130,7 @@ int print_effect_prices(const std::string& csv) {
   for (const Price& price : prices) file << price.name << "," << price.nanoseconds << "\n";
   file.flush();
   if (!file) {
-    complain("cannot write " + csv + "; is there such a folder?");
+    complain("cannot write " + csv + "; is the disk full?");
     return kFailed;
   }
   return kOk;

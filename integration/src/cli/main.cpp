@@ -26,10 +26,19 @@ constexpr const char* kRecording = "built without recording";
 constexpr int kMostThreads = 256;
 constexpr std::int64_t kMostSteps = 1'000'000'000'000;  // years of computing: beyond is a slip
 
+// An empty text, as of a shell variable that was never set, is no name: it asks for nothing.
+CLI::Validator not_empty() {
+  return {[](const std::string& text) {
+            return text.empty() ? std::string("the name of the file is empty") : std::string();
+          },
+          ""};
+}
+
 void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
   CLI::App* run = app.add_subcommand("run", "Simulate a scene; record it with -o");
   run->add_option("SCENE", options.scene, "Scene file (JSON)")->required();
-  run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file");
+  run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file")
+      ->check(not_empty());
   run->add_option("--steps", options.steps, "Number of steps instead of the scene's duration")
       ->check(CLI::Range(std::int64_t{0}, kMostSteps));
   run->add_option("--dt", options.dt, "Length of a step in seconds instead of the scene's");
@@ -58,6 +67,11 @@ void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
   mesh->add_option("--up", options.up,
                    "Axis of the file that points up; default: what the file says")
       ->check(CLI::IsMember({"x", "y", "z"}));
+  mesh->add_flag(
+      "--repair", options.repair,
+      "Drop needless faces and turn the others outwards first, as a scene's repair does");
+  mesh->add_option("--weld", options.weld,
+                   "The same, and join vertices nearer than this, in metres");
   mesh->add_flag("--parts", options.parts, "Also cut it into convex parts, and report on them");
   mesh->add_option("--parts-distance", options.parts_distance,
                    "How far parts may reach out of the mesh, in metres (0.02 of its size)");
@@ -92,6 +106,18 @@ void add_replay(CLI::App& app, ReplayOptions& options, int& exit_code) {
   diff->callback([&] { exit_code = replay_diff(options.file_a, options.file_b); });
 }
 
+// Of a command line that names no command: the word that stands in its place; empty if none does.
+std::string unknown_command(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  if (!parsed.empty()) return unknown_command(*parsed.front());
+  const std::vector<std::string> rest = app.remaining();
+  if (rest.empty() || app.get_subcommands({}).empty()) return {};
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands({}))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return "there is no command '" + rest.front() + "'; there are " + names;
+}
+
 int program(int argc, char** argv) {
   CLI::App app("Plumb: rigid-body physics for game engines.", "plumb");
   app.set_version_flag("--version", std::string("plumb ") + PLUMB_VERSION_STRING + " (" +
@@ -113,7 +139,7 @@ int program(int argc, char** argv) {
   plan->callback([&] { exit_code = print_plan(plan_scene); });
   std::string prices_csv;
   CLI::App* effects = app.add_subcommand("effects", "What each effect costs on this machine");
-  effects->add_option("--csv", prices_csv, "Write the list to this file too");
+  effects->add_option("--csv", prices_csv, "Write the list to this file too")->check(not_empty());
   effects->callback([&] { exit_code = print_effect_prices(prices_csv); });
   add_replay(app, replay, exit_code);
   std::vector<std::string> lab_arguments;
@@ -122,6 +148,11 @@ int program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    const std::string unknown = unknown_command(app);
+    if (!unknown.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+      complain(unknown);
+      return kBadInput;
+    }
     // Help and version come this way too, with 0; all else is the user's to correct.
     return app.exit(error) == 0 ? kOk : kBadInput;
   }

@@ -11,6 +11,9 @@ int inspect_mesh(const MeshOptions& options) {
   assets::InspectOptions inspect;
   inspect.import.metres_per_unit = options.metres_per_unit;
   if (!options.up.empty()) inspect.import.file_up = static_cast<assets::Axis>(options.up[0] - 'x');
+  if (options.repair || options.weld)
+    inspect.repair =
+        assets::RepairOptions{.weld_tolerance = options.weld.value_or(0), .orient = true};
   const auto method = assets::mass_method_from(options.method);
   if (!method.ok()) {
     complain(method.error());

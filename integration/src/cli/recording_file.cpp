@@ -4,6 +4,7 @@
 #include <system_error>
 
 #if defined(PLUMB_WITH_REPLAY)
+#include "cli/output_path.h"
 #include "plumb/integration/scene_recording.h"
 #include "plumb/replay/recorder.h"
 #endif
@@ -19,19 +20,31 @@ struct RecordingFile::State {
   replay::RecorderCost cost;  // of the steps, without closing the file
 };
 
+namespace {
+
+// Why no recording can appear under this name; empty if one can.
+std::string why_not(const std::string& path, const std::string& scene) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(path, scene, ignored)) {
+    return path + " is the scene itself; give another name, for example run.rrd";
+  }
+  // The finished recording takes the place of what is there, which no device survives.
+  if (is_device(path)) {
+    return path + " is a device, a pipe or a socket; give the name of a file, for example " +
+           "run.rrd, or leave out -o to record nothing";
+  }
+  return why_no_file(behind_links(path));
+}
+
+}  // namespace
+
 std::string RecordingFile::open(const std::string& path, const assets::Scene& scene,
                                 const assets::SceneInstance& instance, PhysicsWorld& world,
                                 bool labels) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    return path + " is a folder; give the name of a file, for example run.rrd";
-  }
-  if (std::filesystem::equivalent(path, scene.source, ignored)) {
-    return path + " is the scene itself; give another name, for example run.rrd";
-  }
+  if (std::string wrong = why_not(path, scene.source); !wrong.empty()) return wrong;
   auto state = std::make_unique<State>();
-  state->path = path;
-  state->partial = path + ".partial";
+  state->path = behind_links(path);
+  state->partial = state->path + ".partial";
   replay::RecorderOptions options;
   options.path = state->partial;
   options.name = scene.name;

@@ -30,7 +30,12 @@ int report(const replay::VerifyResult& result, const char* what) {
     std::printf("DIFFERENT: %s\n", result.difference->text().c_str());
     return kFailed;
   }
-  std::printf("identical: %" PRIu64 " %s\n", result.steps, what);
+  std::printf("identical: %" PRIu64 " %s", result.steps, what);
+  if (result.not_compared > 0) {
+    std::printf("; %" PRIu64 " that only one of the two has were not compared",
+                result.not_compared);
+  }
+  std::printf("\n");
   return kOk;
 }
 
@@ -67,7 +72,13 @@ int replay_verify(const std::string& recording, int threads) {
 }
 
 int replay_diff(const std::string& recording_a, const std::string& recording_b) {
-  return report(replay::diff(recording_a, recording_b), "frames");
+  const replay::VerifyResult result = replay::diff(recording_a, recording_b);
+  const int code = report(result, "frames");
+  if (result.difference) {
+    std::printf("Recorded is what %s holds, the other %s\n", recording_a.c_str(),
+                recording_b.c_str());
+  }
+  return code;
 }
 
 #else

@@ -16,9 +16,13 @@ namespace {
 constexpr double kShortestStep = 1e-9;  // [s] as in scene files
 constexpr double kLongestStep = 1e3;    // [s]
 
-// Ctrl-C ends the run early instead of losing its recording.
+// Ctrl-C, or a polite kill as of `timeout`, ends the run early instead of losing its recording; a
+// second one ends the program at once.
 volatile std::sig_atomic_t stop_wanted = 0;
-extern "C" void ask_to_stop(int) { stop_wanted = 1; }
+extern "C" void ask_to_stop(int signal_number) {
+  stop_wanted = 1;
+  std::signal(signal_number, SIG_DFL);
+}
 
 std::string apply(const RunOptions& options, assets::Scene& scene) {
   if (options.dt) {
@@ -106,6 +110,7 @@ int run_scene(const RunOptions& options) {
   }
 
   std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
   RunSummary summary;
   std::string wrong = simulate(world, scene, steps, options.quiet, recording, summary);
   if (recording.is_open()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 
 namespace plumb::cli {
@@ -10,9 +11,17 @@ namespace {
 constexpr double kMillimetres = 1e3;   // per metre
 constexpr double kMilliseconds = 1e3;  // per second
 constexpr double kMicroseconds = 1e6;
+constexpr double kShownDecimals = 1e-3;
 constexpr double kMegabyte = 1e6;  // [bytes]
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+// Three decimals, or three digits where nothing would be left of it.
+std::string readable(double x) {
+  char text[64];
+  std::snprintf(text, sizeof text, x != 0 && std::abs(x) < kShownDecimals ? "%.3g" : "%.3f", x);
+  return text;
+}
 
 }  // namespace
 
@@ -43,8 +52,9 @@ void RunSummary::print(const assets::Scene& scene, const assets::SceneInstance& 
   const double stepping = std::max(0.0, step_seconds - recording.seconds());
   std::printf("Scene        %s: %zu bodies, %zu meshes\n", scene.name.c_str(),
               instance.bodies.size(), instance.meshes.size());
-  std::printf("Simulated    %.3f s in %" PRIu64 " steps of %.3f ms, %d substeps each\n", simulated,
-              steps, kMilliseconds * scene.step.dt, scene.settings.substeps);
+  std::printf("Simulated    %s s in %" PRIu64 " steps of %s ms, %d substeps each\n",
+              readable(simulated).c_str(), steps, readable(kMilliseconds * scene.step.dt).c_str(),
+              scene.settings.substeps);
   std::printf("Speed        %.1f x real time: %.3f ms a step, %.3f us a body and step\n",
               ratio(simulated, stepping),
               kMilliseconds * ratio(stepping, static_cast<double>(steps)),

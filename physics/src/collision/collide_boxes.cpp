@@ -143,23 +143,19 @@ void collide_boxes(const Placed& a, const Placed& b, Num margin, Contacts& out) 
                        {R.row0.y, R.row1.y, R.row2.y},
                        {R.row0.z, R.row1.z, R.row2.z}},
                       half_b};
-  const ContactAxis axis_a =
-      face_axis(ContactAxis::Kind::FaceOfA,
-                axis_vector(face_a.i, pair.t[face_a.i] < Num(0) ? Num(-1) : Num(1)),
-                face_a.separation, box_a, box_b);
-  const ContactAxis axis_b =
-      face_axis(ContactAxis::Kind::FaceOfB,
-                (pair.tb[face_b.j] < Num(0) ? Num(-1) : Num(1)) * box_b.axes[face_b.j],
-                face_b.separation, box_a, box_b);
+  const auto axis_of = [&](ContactAxis::Kind kind) {
+    if (kind == ContactAxis::Kind::Edges) return edge_axis(box_a, box_b, edges);
+    if (kind == ContactAxis::Kind::FaceOfA) {
+      return face_axis(kind, axis_vector(face_a.i, pair.t[face_a.i] < Num(0) ? Num(-1) : Num(1)),
+                       face_a.separation, box_a, box_b);
+    }
+    return face_axis(kind, (pair.tb[face_b.j] < Num(0) ? Num(-1) : Num(1)) * box_b.axes[face_b.j],
+                     face_b.separation, box_a, box_b);
+  };
   const Num size = std::max(length(half_a), length(half_b));
   PolyhedronContact<BoxView, BoxView> contact{box_a, box_b, margin, thickness, size, t, out};
-  const bool edges_win = edges.separation > best_face;
-  const ContactAxis axis_e = edges_win ? edge_axis(box_a, box_b, edges) : axis_a;
-  const ContactAxis& best =
-      edges_win ? axis_e : (face_a.separation >= face_b.separation ? axis_a : axis_b);
-  const Num enough = best.separation - kFacePreference * thickness;
-  contact.along(
-      axis_a.separation >= enough ? axis_a : (axis_b.separation >= enough ? axis_b : best), best);
+  contact.along(face_a.separation, face_b.separation, std::max(edges.separation, best_face),
+                axis_of);
   if (out.count == 0) return;
   out.normal = rotate(a.q, out.normal);
   for (int i = 0; i < out.count; ++i) out.points[i].position = rotate(a.q, out.points[i].position);

@@ -40,57 +40,78 @@ Best best_face(const PlacedPolyhedron& p, const PlacedPolyhedron& q, Num floor) 
   return best;
 }
 
-// The largest n . w over the unit vectors n between n1 and n2 on their great circle.
-Num largest_on_arc(NumVec n1, NumVec n2, NumVec w) {
-  const Num w1 = dot(n1, w), w2 = dot(n2, w), c = dot(n1, n2);
-  const Num u1 = w1 - c * w2, u2 = w2 - c * w1;
-  if (!(u1 > Num(0) && u2 > Num(0))) return std::max(w1, w2);
-  // w projected to the plane of the arc: alpha n1 + beta n2 with (alpha, beta) = (u1, u2) / (1 -
-  // c^2).
-  const Num sine_squared = Num(1) - c * c;
-  if (!(sine_squared > kParallelSine)) return length(w);
-  return std::sqrt(std::max(Num(0), (w1 * u1 + w2 * u2) / sine_squared));
+// An edge separates along normals between those of its two faces. Among these the one that looks
+// most towards a point is found from how far the point is in front of the two faces (`first`,
+// `second`) [m] and the cosine between their normals; returns whether the point is farther than
+// `limit` [m] in front of the edge along that one.
+bool edge_looks_beyond(Num first, Num second, Num cosine, Num limit) {
+  const Num u1 = first - cosine * second, u2 = second - cosine * first;
+  if (!(u1 > Num(0) && u2 > Num(0))) return false;  // it is one of the faces' own
+  // The point seen from the edge, projected to the plane of both normals, is alpha n1 + beta n2
+  // with (alpha, beta) = (u1, u2) / (1 - cosine^2).
+  const Num sine_squared = Num(1) - cosine * cosine;
+  if (!(sine_squared > kParallelSine)) return true;
+  return first * u1 + second * u2 > limit * limit * sine_squared;
 }
 
-// The edges of p whose normals could separate more than `floor` from a ball; sign -1 turns p's
-// normals around (for the second shape, whose normals point back).
-int edges_in_reach(const PlacedPolyhedron& p, Num sign, NumVec centre, Num radius, Num floor,
+// The edges of p whose normals could separate more than `floor` from q: from a ball inside it.
+// Faces may be uneven, so an edge's corner may lie that much behind the planes of its faces.
+int edges_in_reach(const PlacedPolyhedron& p, const PlacedPolyhedron& q, Num floor,
                    std::uint16_t* list) {
+  const Num limit = floor + sure_inner_radius(q);
+  const Num uneven = Num(4) * kHullUnevenness * p.inner_radius();
+  Num ahead[kMaxHullFaces];
+  for (int k = 0; k < p.face_count(); ++k)
+    ahead[k] = dot(p.normal(k), q.centre()) - p.offset(k) + uneven;
   int count = 0;
   for (int i = 0; i < p.edge_count(); ++i) {
-    const PlacedPolyhedron::Edge e = p.edge(i);
-    const NumVec w = sign * (centre - p.vertex(e.v0));
-    if (largest_on_arc(sign * p.normal(e.face_a), sign * p.normal(e.face_b), w) - radius > floor) {
+    const PlacedPolyhedron::Edge& e = p.edge(i);
+    const Num first = ahead[e.face_a], second = ahead[e.face_b];
+    const Num most = std::max(first, second);
+    if (most > limit ||
+        (most > Num(0) &&
+         edge_looks_beyond(first, second, dot(p.normal(e.face_a), p.normal(e.face_b)), limit))) {
       list[count++] = static_cast<std::uint16_t>(i);
     }
   }
   return count;
 }
 
+// An edge with the normals of its faces, which span its arc on the Gauss map.
+struct EdgeArc {
+  NumVec start, along, normal_a, normal_b;
+};
+EdgeArc arc_of(const PlacedPolyhedron& p, int edge) {
+  const PlacedPolyhedron::Edge& e = p.edge(edge);
+  return {p.vertex(e.v0), p.vertex(e.v1) - p.vertex(e.v0), p.normal(e.face_a), p.normal(e.face_b)};
+}
+
 Best best_edges(const PlacedPolyhedron& a, const PlacedPolyhedron& b, Num floor) {
-  std::uint16_t list_a[kMaxHullEdges], list_b[kMaxHullEdges];
-  const int count_a = edges_in_reach(a, Num(1), b.centre(), sure_inner_radius(b), floor, list_a);
-  const int count_b = edges_in_reach(b, Num(-1), a.centre(), sure_inner_radius(a), floor, list_b);
   Best best;
   best.separation = floor;
+  std::uint16_t list_a[kMaxHullEdges], list_b[kMaxHullEdges];
+  const int count_a = edges_in_reach(a, b, floor, list_a);
+  if (count_a == 0) return best;
+  const int count_b = edges_in_reach(b, a, floor, list_b);
+  EdgeArc arcs_b[kMaxHullEdges];
+  for (int k = 0; k < count_b; ++k) arcs_b[k] = arc_of(b, list_b[k]);
   for (int i = 0; i < count_a; ++i) {
-    const PlacedPolyhedron::Edge ea = a.edge(list_a[i]);
-    const NumVec a1 = a.normal(ea.face_a), a2 = a.normal(ea.face_b);
-    const NumVec da = a.vertex(ea.v1) - a.vertex(ea.v0);
+    const EdgeArc ea = arc_of(a, list_a[i]);
+    const NumVec da = ea.along;
     for (int k = 0; k < count_b; ++k) {
-      const PlacedPolyhedron::Edge eb = b.edge(list_b[k]);
-      const NumVec b1 = -b.normal(eb.face_a), b2 = -b.normal(eb.face_b);
-      const Num b1_da = dot(b1, da), b2_da = dot(b2, da);
+      // The arc of -b: it crosses that of a if the ends of each lie on both sides of the other.
+      const EdgeArc& eb = arcs_b[k];
+      const Num b1_da = -dot(eb.normal_a, da), b2_da = -dot(eb.normal_b, da);
       if (!(b1_da * b2_da < Num(0))) continue;
-      const NumVec db = b.vertex(eb.v1) - b.vertex(eb.v0);
-      const Num a1_db = dot(a1, db), a2_db = dot(a2, db);
+      const NumVec db = eb.along;
+      const Num a1_db = dot(ea.normal_a, db), a2_db = dot(ea.normal_b, db);
       if (!(a1_db * a2_db < Num(0) && b1_da * a2_db > Num(0))) continue;
       const NumVec across = cross(da, db);
       const Num squared = length_squared(across);
       if (!(squared > kParallelSine * kParallelSine * length_squared(da) * length_squared(db)))
         continue;
-      const Num sign = dot(across, a1 + a2) < Num(0) ? Num(-1) : Num(1);
-      const Num raw = sign * dot(across, b.vertex(eb.v0) - a.vertex(ea.v0));
+      const Num sign = dot(across, ea.normal_a + ea.normal_b) < Num(0) ? Num(-1) : Num(1);
+      const Num raw = sign * dot(across, eb.start - ea.start);
       const Num s = raw / std::sqrt(squared);
       if (s > best.separation) best = {s, list_a[i], list_b[k]};
     }
@@ -119,7 +140,7 @@ ContactAxis face_of_b_axis(const PlacedPolyhedron& a, const PlacedPolyhedron& b,
 }
 
 ContactAxis edges_axis(const PlacedPolyhedron& a, const PlacedPolyhedron& b, const Best& best) {
-  const PlacedPolyhedron::Edge ea = a.edge(best.a), eb = b.edge(best.b);
+  const PlacedPolyhedron::Edge &ea = a.edge(best.a), &eb = b.edge(best.b);
   ContactAxis axis;
   axis.kind = ContactAxis::Kind::Edges;
   axis.edge_a = a.segment(best.a);
@@ -131,8 +152,10 @@ ContactAxis edges_axis(const PlacedPolyhedron& a, const PlacedPolyhedron& b, con
   if (dot(n, a.normal(ea.face_a) + a.normal(ea.face_b)) < Num(0)) n = -n;
   axis.normal = n;
   axis.separation = best.separation;
-  axis.face_a = dot(a.normal(ea.face_a), n) >= dot(a.normal(ea.face_b), n) ? ea.face_a : ea.face_b;
-  axis.face_b = dot(b.normal(eb.face_a), n) <= dot(b.normal(eb.face_b), n) ? eb.face_a : eb.face_b;
+  axis.face_a = static_cast<int>(
+      dot(a.normal(ea.face_a), n) >= dot(a.normal(ea.face_b), n) ? ea.face_a : ea.face_b);
+  axis.face_b = static_cast<int>(
+      dot(b.normal(eb.face_a), n) <= dot(b.normal(eb.face_b), n) ? eb.face_a : eb.face_b);
   return axis;
 }
 
@@ -168,7 +191,6 @@ void collide_polyhedra(const Placed& placed_a, const Placed& placed_b, Num margi
     return;
   }
   const Num thickness = std::min(a.inner_radius(), b.inner_radius());
-  const Num preference = kFacePreference * thickness;
   const Best face_b = best_face(b, a, face_a.separation);
   if (!(face_b.separation <= margin)) {
     out.apart = {face_b.a, true};
@@ -178,17 +200,14 @@ void collide_polyhedra(const Placed& placed_a, const Placed& placed_b, Num margi
   const Best edges = best_edges(a, b, best_of_faces);
   if (!(edges.separation <= margin)) return;
 
+  const Num separation = std::max(edges.separation, best_of_faces);
   PolyhedronContact<PlacedPolyhedron, PlacedPolyhedron> contact{
       a, b, margin, thickness, std::max(a.outer_radius(), b.outer_radius()), towards, out};
-  const bool edges_win = edges.separation > best_of_faces;
-  const Num enough = std::max(edges.separation, best_of_faces) - preference;
-  const ContactAxis axis_a = face_of_a_axis(a, b, face_a), axis_b = face_of_b_axis(a, b, face_b);
-  const ContactAxis axis_e = edges_win ? edges_axis(a, b, edges) : axis_a;
-  const ContactAxis& best =
-      edges_win ? axis_e : (face_a.separation >= face_b.separation ? axis_a : axis_b);
-  contact.along(
-      face_a.separation >= enough ? axis_a : (face_b.separation >= enough ? axis_b : best), best);
-
+  contact.along(face_a.separation, face_b.separation, separation, [&](ContactAxis::Kind kind) {
+    if (kind == ContactAxis::Kind::Edges) return edges_axis(a, b, edges);
+    return kind == ContactAxis::Kind::FaceOfA ? face_of_a_axis(a, b, face_a)
+                                              : face_of_b_axis(a, b, face_b);
+  });
   if (out.count == 0) return;
   out.normal = rotate(placed_a.q, out.normal);
   for (int i = 0; i < out.count; ++i) {

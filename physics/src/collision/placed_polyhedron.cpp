@@ -9,17 +9,17 @@ using Edge = PlacedPolyhedron::Edge;
 
 constexpr std::array<Edge, 12> make_box_edges() {
   std::array<Edge, 12> edges{};
-  for (int face = 0; face < 6; ++face) {
-    const auto k = static_cast<std::size_t>(face);
+  for (std::uint32_t k = 0; k < 6; ++k) {
     for (std::size_t i = 0; i < 4; ++i) {
-      const int v0 = kBoxTables.face_vertices[k][i], v1 = kBoxTables.face_vertices[k][(i + 1) % 4];
+      const auto v0 = static_cast<std::uint32_t>(kBoxTables.face_vertices[k][i]);
+      const auto v1 = static_cast<std::uint32_t>(kBoxTables.face_vertices[k][(i + 1) % 4]);
       Edge& edge = edges[static_cast<std::size_t>(kBoxTables.face_edges[k][i])];
       if (v0 < v1) {
         edge.v0 = v0;
         edge.v1 = v1;
-        edge.face_a = face;
+        edge.face_a = k;
       } else {
-        edge.face_b = face;
+        edge.face_b = k;
       }
     }
   }
@@ -32,6 +32,7 @@ constexpr std::array<Edge, 12> kBoxEdges = make_box_edges();
 PlacedPolyhedron::PlacedPolyhedron(const CollisionShape& shape, const NumMatrix& R, NumVec t) {
   if (shape.type == ShapeType::Box) {
     hull_ = nullptr;
+    edges_ = kBoxEdges.data();
     vertex_count_ = 8;
     face_count_ = 6;
     edge_count_ = 12;
@@ -55,6 +56,7 @@ PlacedPolyhedron::PlacedPolyhedron(const CollisionShape& shape, const NumMatrix&
   vertex_count_ = static_cast<int>(hull_->vertices().size());
   face_count_ = static_cast<int>(hull_->face_count());
   edge_count_ = static_cast<int>(hull_->edges().size());
+  edges_ = hull_->edges().data();
   centre_ = R * to_num(hull_->interior_point()) + t;
   inner_radius_ = static_cast<Num>(hull_->inner_radius());
   outer_radius_ = static_cast<Num>(hull_->outer_radius());
@@ -68,39 +70,35 @@ PlacedPolyhedron::PlacedPolyhedron(const CollisionShape& shape, const NumMatrix&
   }
 }
 
-PlacedPolyhedron::Edge PlacedPolyhedron::edge(int i) const {
-  const auto index = static_cast<std::size_t>(i);
-  if (hull_ == nullptr) return kBoxEdges[index];
-  const HullGeometry::Edge& e = hull_->edges()[index];
-  return {static_cast<int>(e.v0), static_cast<int>(e.v1), static_cast<int>(e.face_a),
-          static_cast<int>(e.face_b)};
-}
-
 int PlacedPolyhedron::face_facing(NumVec d) const {
-  const int farthest = support_index(d);
-  int facing = 0;
+  const auto farthest = static_cast<std::uint32_t>(support_index(d));
+  std::uint32_t facing = 0;
   Num best = Num(-2);
   for (int i = 0; i < edge_count_; ++i) {
-    const Edge e = edge(i);
+    const Edge& e = edges_[i];
     if (e.v0 != farthest && e.v1 != farthest) continue;
-    for (const int k : {e.face_a, e.face_b}) {
+    for (const std::uint32_t k : {e.face_a, e.face_b}) {
       const Num along = dot(normals_[k], d);
       if (along > best) best = along, facing = k;
     }
   }
-  return facing;
+  return static_cast<int>(facing);
 }
 
 void PlacedPolyhedron::faces_facing(NumVec d, int (&out)[2]) const {
-  const int farthest = support_index(d);
+  const auto farthest = static_cast<std::uint32_t>(support_index(d));
   out[0] = out[1] = 0;
   Num least = std::numeric_limits<Num>::infinity();
   for (int i = 0; i < edge_count_; ++i) {
-    const Edge e = edge(i);
+    const Edge& e = edges_[i];
     if (e.v0 != farthest && e.v1 != farthest) continue;
     const NumVec along = vertices_[e.v1] - vertices_[e.v0];
     const Num drop = std::abs(dot(along, d)) / length(along);
-    if (drop < least) least = drop, out[0] = e.face_a, out[1] = e.face_b;
+    if (drop < least) {
+      least = drop;
+      out[0] = static_cast<int>(e.face_a);
+      out[1] = static_cast<int>(e.face_b);
+    }
   }
 }
 

@@ -12,18 +12,16 @@ class PlacedPolyhedron {
   // counts.
   PlacedPolyhedron(const CollisionShape& shape, const NumMatrix& R, NumVec t);
 
-  struct Edge {
-    int v0, v1, face_a, face_b;  // face_a has it as v0 -> v1
-  };
+  using Edge = HullGeometry::Edge;
   [[nodiscard]] int vertex_count() const { return vertex_count_; }
   [[nodiscard]] int face_count() const { return face_count_; }
   [[nodiscard]] int edge_count() const { return edge_count_; }
   [[nodiscard]] NumVec vertex(int i) const { return vertices_[i]; }
   [[nodiscard]] NumVec normal(int k) const { return normals_[k]; }
   [[nodiscard]] Num offset(int k) const { return offsets_[k]; }  // [m]
-  [[nodiscard]] Edge edge(int i) const;
+  [[nodiscard]] const Edge& edge(int i) const { return edges_[i]; }
   [[nodiscard]] Segment segment(int i) const {
-    const Edge e = edge(i);
+    const Edge& e = edge(i);
     return {vertices_[e.v0], vertices_[e.v1]};
   }
   [[nodiscard]] NumVec centre() const { return centre_; }
@@ -57,6 +55,7 @@ class PlacedPolyhedron {
 
  private:
   const HullGeometry* hull_;  // null for a box
+  const Edge* edges_;
   int vertex_count_, face_count_, edge_count_;
   NumVec centre_;
   Num inner_radius_, outer_radius_;

@@ -36,23 +36,30 @@ struct PolyhedronContact {
   NumVec towards;  // from about the middle of A to that of B
   Contacts& out;
 
-  // `preferred` is `best` or not much worse. A face contact counts only if its deepest point is as
+  // From the separations [m] along the best face of A, the best face of B, and the best of all
+  // axes, which is one of these or that of two edges. `axis_of(kind)` tells the axis. A face is
+  // preferred that is not much worse than the best axis, and counts only if its deepest point is as
   // deep as the best axis says: a face beside which the shapes meet has points that lie farther
   // apart.
-  void along(const ContactAxis& preferred, const ContactAxis& best) {
-    const bool apart = best.separation > Num(0);
-    const Num slack = (apart ? kAttained : kFacePreference) * thickness;
-    const Num limit = best.separation + slack;
-    if (preferred.kind != ContactAxis::Kind::Edges &&
-        overlay(preferred.normal, preferred.separation, preferred.face_a, preferred.face_b, limit))
-      return;
-    if (best.kind == ContactAxis::Kind::Edges && (!apart || edges_cross(best))) {
+  template <class AxisOf>
+  void along(Num face_a, Num face_b, Num separation, const AxisOf& axis_of) {
+    using Kind = ContactAxis::Kind;
+    const bool apart = separation > Num(0);
+    const Num enough = separation - kFacePreference * thickness;
+    const Num limit = separation + (apart ? kAttained : kFacePreference) * thickness;
+    const Kind best_kind = separation > std::max(face_a, face_b) ? Kind::Edges
+                           : face_a >= face_b                    ? Kind::FaceOfA
+                                                                 : Kind::FaceOfB;
+    const Kind preferred = face_a >= enough   ? Kind::FaceOfA
+                           : face_b >= enough ? Kind::FaceOfB
+                                              : best_kind;
+    if (preferred != Kind::Edges && overlay(axis_of(preferred), limit)) return;
+    const ContactAxis best = axis_of(best_kind);
+    if (best_kind == Kind::Edges && (!apart || edges_cross(best))) {
       overlay_ridges(best.normal, limit, edge_contact(best));
       return;
     }
-    if (best.kind != ContactAxis::Kind::Edges && &preferred != &best &&
-        overlay(best.normal, best.separation, best.face_a, best.face_b, limit))
-      return;
+    if (best_kind != Kind::Edges && best_kind != preferred && overlay(best, limit)) return;
     if (!apart) {
       add_vertex_contact(best);
     } else {
@@ -61,16 +68,17 @@ struct PolyhedronContact {
   }
 
  private:
-  bool overlay(NumVec normal, Num separation, int face_a, int face_b, Num limit) {
+  bool overlay(const ContactAxis& axis, Num limit) {
+    const NumVec normal = axis.normal;
     FacePolygon polygon_a, polygon_b;
-    a.face(face_a, polygon_a);
-    b.face(face_b, polygon_b);
+    a.face(axis.face_a, polygon_a);
+    b.face(axis.face_b, polygon_b);
     if (dot(polygon_a.normal, normal) < kSteepFace || dot(polygon_b.normal, normal) > -kSteepFace) {
       return false;
     }
     ContactCandidates candidates;
     candidates.count = 0;
-    const Num smallest = overlay_faces(polygon_a, polygon_b, normal, separation,
+    const Num smallest = overlay_faces(polygon_a, polygon_b, normal, axis.separation,
                                        kClipBand * thickness, margin, candidates);
     if (!(smallest <= limit)) return false;
     if (candidates.count > 0) choose_points(candidates, normal, kDeepestTie * thickness, out);

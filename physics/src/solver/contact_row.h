@@ -55,15 +55,16 @@ struct SubstepBody {
   bool turned = false;    // fast: its rows are told anew within the step (turned_rows.h)
 };
 
-// Spring-like softness of a contact, from a frequency and a damping ratio [Catto 2024]:
-//   bias_rate = w/(2 z + h w), mass_scale = h w (2 z + h w)/(1 + h w (2 z + h w)), impulse_scale =
-//   1 - mass_scale
+// Spring-like softness of a contact, from a frequency, a damping ratio and the effective masses s
+// that the spring is made for [Catto 2024], who takes s = 1:
+//   bias_rate = w/(2 z + h w), mass_scale = s h w (2 z + h w)/(1 + s h w (2 z + h w)),
+//   impulse_scale = 1 - mass_scale
 struct Softness {
   Real bias_rate;      // [1/s]
   Real mass_scale;     // [-]
   Real impulse_scale;  // [-]
 };
-Softness make_softness(Real frequency, Real damping_ratio, Real h);
+Softness make_softness(Real frequency, Real damping_ratio, Real masses, Real h);
 
 // What the kernel iterates on: nothing but numbers, so that the rows of a block can be turned into
 // lanes. T is one number or W of them side by side, P the points there is room for.

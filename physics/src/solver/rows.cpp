@@ -13,11 +13,11 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-Softness make_softness(Real frequency, Real damping_ratio, Real h) {
+Softness make_softness(Real frequency, Real damping_ratio, Real masses, Real h) {
   constexpr Real kTwoPi = Real(6.283185307179586476925);
   const Real w = kTwoPi * frequency;
   const Real a1 = Real(2) * damping_ratio + h * w;
-  const Real a2 = h * w * a1;
+  const Real a2 = masses * h * w * a1;
   const Real a3 = Real(1) / (Real(1) + a2);
   return {w / a1, a2 * a3, a3};
 }
@@ -79,10 +79,15 @@ void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real
 Softness contact_softness(const WorldState& world, Real thickness, bool against_fixed) {
   const Real pull = static_cast<Real>(world.settings.gravity.norm()) / thickness;
   const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
-  const Real frequency =
-      std::min(world.settings.contact_frequency * stiffer, tolerance::kStiffestContact / world.h);
-  return make_softness(frequency * (against_fixed ? tolerance::kStaticStiffness : Real(1)),
-                       world.settings.contact_damping_ratio, world.h);
+  const Real stiffest = tolerance::kStiffestContact / world.h;
+  const Real frequency = std::min(world.settings.contact_frequency * stiffer, stiffest);
+  if (against_fixed) {
+    return make_softness(frequency * tolerance::kStaticStiffness,
+                         world.settings.contact_damping_ratio, Real(1), world.h);
+  }
+  const Real room = stiffest / frequency;  // a spring of s masses is sqrt(s) times as fast
+  return make_softness(frequency, world.settings.contact_damping_ratio,
+                       std::min(tolerance::kContactMasses, room * room), world.h);
 }
 
 // Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points

@@ -30,54 +30,51 @@ std::shared_ptr<const FactsCache::Facts> make_facts(const WorldState& world) {
   return facts;
 }
 
-// Writes contacts into lists that are long enough for all, and cuts these in the end.
-class ContactWriter {
- public:
-  ContactWriter(const WorldState& world, ImageColumns& out) : out_(out) {
-    std::size_t count = world.contacts.size();
-    for (const SleepingIsland& island : world.islands) count += island.contacts.size();
-    out.contacts.resize(count);
-    out.points.resize(count * Manifold::kMaxPoints);
-    contact_ = out.contacts.data();
-    point_ = out.points.data();
-  }
-  void add(std::uint32_t seen_from, const Contact& from) {
-    contact_->reference = seen_from;
-    contact_->point_count = static_cast<std::uint32_t>(from.manifold.count);
-    contact_->normal = from.manifold.normal;
-    ++contact_;
-    for (int i = 0; i < from.manifold.count; ++i, ++point_) {
-      point_->position = from.manifold.points[i].position;
-      point_->normal_impulse = from.step_normal_impulse[i];
-    }
-  }
-  void add_all(const Pair& pair, const std::vector<Contact>& store) {
+// Contacts are large and lie in a row, and of each only a part is read: the memory is told early.
+constexpr std::size_t kPrefetched = 8;  // [-] contacts ahead
+void prefetch(const std::vector<Contact>& contacts, std::size_t i) {
+#if defined(__GNUC__) || defined(__clang__)
+  if (i >= contacts.size()) return;
+  const Contact& contact = contacts[i];
+  __builtin_prefetch(&contact);
+  __builtin_prefetch(&contact.manifold.points[1]);
+  __builtin_prefetch(&contact.manifold.points[3]);
+  __builtin_prefetch(&contact.step_normal_impulse);
+#else
+  static_cast<void>(contacts), static_cast<void>(i);
+#endif
+}
+
+// Calls visit(slot of the body it is seen from, contact) for each that touches.
+template <class Visit>
+void for_each_touching(const WorldState& world, Visit&& visit) {
+  const auto visit_pair = [&](const Pair& pair, const std::vector<Contact>& store) {
     if (pair.contact_count == 0 || !pair.was_touching) return;
     const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
-    for (const Contact& contact : contacts_of(pair, store)) add(seen_from, contact);
-  }
-  void close() {
-    out_.contacts.resize(static_cast<std::size_t>(contact_ - out_.contacts.data()));
-    out_.points.resize(static_cast<std::size_t>(point_ - out_.points.data()));
-  }
-
- private:
-  ImageColumns& out_;
-  ImageContact* contact_;
-  ImagePoint* point_;
-};
-
-void copy_contacts(const WorldState& world, ImageColumns& out) {
-  ContactWriter writer(world, out);
+    for (const Contact& contact : contacts_of(pair, store)) visit(seen_from, contact);
+  };
   if (world.pairs.changes() == world.contacts_fit) {  // no look at the pairs
-    for (const Contact& contact : world.contacts)
-      if (contact.seen_from != kNone) writer.add(contact.seen_from, contact);
+    for (std::size_t i = 0; i < world.contacts.size(); ++i) {
+      prefetch(world.contacts, i + kPrefetched);
+      const Contact& contact = world.contacts[i];
+      if (contact.seen_from != kNone) visit(contact.seen_from, contact);
+    }
   } else {
-    for (const Pair& pair : world.pairs) writer.add_all(pair, world.contacts);
+    for (const Pair& pair : world.pairs) visit_pair(pair, world.contacts);
   }
   for (const SleepingIsland& island : world.islands)
-    for (const Pair& pair : island.pairs) writer.add_all(pair, island.contacts);
-  writer.close();
+    for (const Pair& pair : island.pairs) visit_pair(pair, island.contacts);
+}
+
+void copy_contacts(const WorldState& world, ImageColumns& out) {
+  out.contacts.clear();
+  out.points.clear();
+  for_each_touching(world, [&](std::uint32_t seen_from, const Contact& from) {
+    out.contacts.push_back(
+        {seen_from, static_cast<std::uint32_t>(from.manifold.count), from.manifold.normal});
+    for (int i = 0; i < from.manifold.count; ++i)
+      out.points.push_back({from.manifold.points[i].position, from.step_normal_impulse[i]});
+  });
 }
 
 }  // namespace

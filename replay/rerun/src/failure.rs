@@ -2,6 +2,7 @@
 
 use std::ffi::{CStr, c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(i32)]
@@ -39,6 +40,9 @@ pub fn guard(
     error_size: usize,
     body: impl FnOnce() -> Result<(), Failure>,
 ) -> c_int {
+    // What a panic has to say comes back as the error text, and not on the caller's terminal too.
+    static QUIET: Once = Once::new();
+    QUIET.call_once(|| std::panic::set_hook(Box::new(|_| {})));
     let failure = match catch_unwind(AssertUnwindSafe(body)) {
         Ok(Ok(())) => {
             write_text(error, error_size, "");
@@ -52,12 +56,16 @@ pub fn guard(
 }
 
 pub fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
-    let reason = panic
+    format!("a defect in the recording bridge: {}", reason_of(panic))
+}
+
+/// What a panic says about itself.
+pub fn reason_of(panic: &(dyn std::any::Any + Send)) -> &str {
+    panic
         .downcast_ref::<String>()
         .map(String::as_str)
         .or_else(|| panic.downcast_ref::<&str>().copied())
-        .unwrap_or("no reason given");
-    format!("a defect in the recording bridge: {reason}")
+        .unwrap_or("no reason given")
 }
 
 /// Zero-terminated, cut at a character's border where it does not fit.

@@ -5,7 +5,8 @@
 
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::fs::File;
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use arrow::array::{
     Array, ArrayRef, ArrowPrimitiveType, FixedSizeListArray, ListArray, PrimitiveArray, StringArray,
@@ -18,7 +19,7 @@ use re_log_encoding::{
 use re_log_types::{EntityPath, LogMsg};
 
 use crate::columns::ValueType;
-use crate::failure::{Code, Failure};
+use crate::failure::{Code, Failure, reason_of};
 
 /// Room for an identifier in the summary, with its zero.
 const ID_SIZE: usize = 128;
@@ -70,10 +71,17 @@ struct Frames {
     finished: bool,
 }
 
-fn malformed(path: &str, at: u64, reason: impl std::fmt::Display) -> Failure {
+fn no_recording(path: &str, reason: impl std::fmt::Display) -> Failure {
     Failure::new(
         Code::Malformed,
-        format!("{path}: not a recording at byte {at}: {reason}"),
+        format!("{path}: not a recording: {reason}"),
+    )
+}
+
+fn damaged(path: &str, at: u64, reason: impl std::fmt::Display) -> Failure {
+    Failure::new(
+        Code::Malformed,
+        format!("{path}: damaged at byte {at}: {reason}; copy it again or record it again"),
     )
 }
 
@@ -86,15 +94,15 @@ fn walk_frames(path: &str, file: &mut File) -> Result<Frames, Failure> {
     let mut header = [0; StreamHeader::ENCODED_SIZE_BYTES];
     reader
         .read_exact(&mut header)
-        .map_err(|_| malformed(path, 0, "it is too short"))?;
-    StreamHeader::from_rrd_bytes(&header).map_err(|e| malformed(path, 0, e))?;
+        .map_err(|_| no_recording(path, "it is too short"))?;
+    StreamHeader::from_rrd_bytes(&header).map_err(|e| no_recording(path, e))?;
 
     let mut at = header.len() as u64;
     let mut finished = false;
     while !finished && at + MessageHeader::ENCODED_SIZE_BYTES as u64 <= file_bytes {
         let mut bytes = [0; MessageHeader::ENCODED_SIZE_BYTES];
         reader.read_exact(&mut bytes).map_err(io)?;
-        let frame = MessageHeader::from_rrd_bytes(&bytes).map_err(|e| malformed(path, at, e))?;
+        let frame = MessageHeader::from_rrd_bytes(&bytes).map_err(|e| damaged(path, at, e))?;
         let begin = at + bytes.len() as u64;
         match begin.checked_add(frame.len) {
             Some(end) if end <= file_bytes => {
@@ -145,6 +153,9 @@ pub fn read(
 ) -> Result<(), Failure> {
     let mut file =
         File::open(path).map_err(|e| Failure::new(Code::Io, format!("cannot open {path}: {e}")))?;
+    if file.metadata().is_ok_and(|about| about.is_dir()) {
+        return Err(no_recording(path, "it is a folder"));
+    }
     let frames = walk_frames(path, &mut file)?;
     summary.file_bytes = frames.file_bytes;
     summary.finished = c_int::from(frames.finished);
@@ -157,10 +168,28 @@ pub fn read(
     file.rewind()
         .map_err(|e| Failure::new(Code::Io, format!("reading {path}: {e}")))?;
     let whole = BufReader::with_capacity(READ_BUFFER_BYTES, file.take(frames.whole_bytes));
+    let mut at = 0;
+    // Arrow panics over some numbers that cannot be, as of a slice longer than its buffer.
+    let decoded = catch_unwind(AssertUnwindSafe(|| {
+        decode(path, whole, entity_prefix, callback, user, summary, &mut at)
+    }));
+    decoded.unwrap_or_else(|panic| Err(damaged(path, at, reason_of(panic.as_ref()))))
+}
+
+/// Reads frame by frame; `at` is the end of the one that was taken last.
+fn decode(
+    path: &str,
+    whole: impl BufRead,
+    entity_prefix: &str,
+    callback: CCallback,
+    user: *mut c_void,
+    summary: &mut CSummary,
+    at: &mut u64,
+) -> Result<(), Failure> {
     let mut decoder = DecoderApp::decode_lazy(whole);
     while let Some(message) = decoder.next() {
-        let at = decoder.num_bytes_processed();
-        match message.map_err(|e| malformed(path, at, e))? {
+        *at = decoder.num_bytes_processed();
+        match message.map_err(|e| damaged(path, *at, e))? {
             LogMsg::SetStoreInfo(info) if info.info.store_id.is_recording() => {
                 let store = &info.info.store_id;
                 copy_id(&mut summary.application_id, store.application_id().as_str());
@@ -168,7 +197,7 @@ pub fn read(
             }
             LogMsg::ArrowMsg(store, message) if store.is_recording() => {
                 summary.chunks += 1;
-                let chunk = Chunk::from_arrow_msg(&message).map_err(|e| malformed(path, at, e))?;
+                let chunk = Chunk::from_arrow_msg(&message).map_err(|e| damaged(path, *at, e))?;
                 read_chunk(&chunk, entity_prefix, callback, user)?;
             }
             _ => {}

@@ -18,7 +18,12 @@ std::string Difference::text() const {
       static_cast<unsigned long long>(recorded_hash));
   std::string all = line.data();
   if (quantity.empty()) return all;
-  const std::string who = body ? "body " + std::to_string(body->index) + ", " : "";
+  if (!body) {  // not a quantity of one: there are not the same bodies on both sides
+    std::snprintf(line.data(), line.size(), "; other bodies: %.0f that can move, recorded %.0f",
+                  computed, recorded);
+    return all + line.data();
+  }
+  const std::string who = "body " + std::to_string(body->index) + ", ";
   std::snprintf(line.data(), line.size(), "; %s%s is %.17g, recorded %.17g (%.3g apart, %.3g ulp)",
                 who.c_str(), quantity.c_str(), computed, recorded, computed - recorded, ulps);
   all += line.data();
@@ -75,8 +80,10 @@ VerifyResult diff(const std::string& path_a, const std::string& path_b) {
   while (i < a.steps.size() && k < b.steps.size()) {
     if (a.steps[i].frame < b.steps[k].frame) {
       ++i;
+      ++result.not_compared;
     } else if (b.steps[k].frame < a.steps[i].frame) {
       ++k;
+      ++result.not_compared;
     } else {
       ++result.steps;
       const detail::RecordedStep &step_a = a.steps[i++], &step_b = b.steps[k++];
@@ -92,6 +99,7 @@ VerifyResult diff(const std::string& path_a, const std::string& path_b) {
       break;
     }
   }
+  if (!result.difference) result.not_compared += a.steps.size() - i + b.steps.size() - k;
   if (result.steps == 0 && result.outcome.ok())
     result.outcome = Outcome::failed(path_a + " and " + path_b + " have no frame in common");
   return result;

@@ -65,6 +65,33 @@ TEST(Stacking, TenShiftedBoxesStandForAMinute) {
   EXPECT_LE(v.lean, 5e-3);
 }
 
+// Euler's column on springs that resist tilt as contacts do: 16 boxes of 1 m stand, 17 sway.
+TEST(Stacking, FifteenShiftedBoxesStandForAMinute) {
+  PhysicsWorld world(no_sleep());
+  const Built stack = build_stack(world, {.count = 15, .shift = 0.01});
+  run(world, 60);
+  const Verdict v = judge(world, stack);
+  EXPECT_LE(v.sideways, 0.01 + 0.005);
+  EXPECT_LE(v.lean, 5e-3);
+}
+
+// A contact between two of the boxes is a spring of w^2 times one of their masses, whatever it
+// carries: box k of n, on which n - 1 - k rest, sinks into that below by (n - k) g / w^2.
+TEST(Stacking, BoxesSinkIntoOneAnotherByTheirLoadOverTheSpring) {
+  PhysicsWorld world(no_sleep());
+  constexpr int kCount = 8;
+  const Built stack = build_stack(world, {.count = kCount});
+  run(world, 30);
+  const double w = 2 * 3.14159265358979 * static_cast<double>(world.settings().contact_frequency);
+  const double unit = world.settings().gravity.cast<double>().norm() / (w * w);  // [m]
+  for (int k = 1; k < kCount; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double gap =
+        position(world, stack.bodies[i]).y() - position(world, stack.bodies[i - 1]).y() - 1;
+    EXPECT_NEAR(-gap, (kCount - k) * unit, 0.02 * (kCount - k) * unit + 1e-6) << "box " << k;
+  }
+}
+
 TEST(Stacking, TenBoxesFallAsleepAndStayInPlace) {
   PhysicsWorld world;
   const Built stack = build_stack(world);

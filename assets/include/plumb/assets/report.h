@@ -9,6 +9,7 @@
 #include "plumb/assets/hull.h"
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
+#include "plumb/assets/repair.h"
 #include "plumb/assets/result.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
@@ -16,6 +17,7 @@ namespace plumb::inline PLUMB_ABI::assets {
 struct MeshInspection {
   TriangleMesh mesh;
   ImportReport import;
+  std::string repaired;  // what a repair changed; empty: none was asked for
   MeshCertificate certificate;
   std::optional<MeshMass> mass;
   std::string mass_error;  // why there is no mass
@@ -27,6 +29,7 @@ struct MeshInspection {
 
 struct InspectOptions {
   ImportOptions import = {};
+  std::optional<RepairOptions> repair = {};  // unset: the mesh is looked at as it is
   MassOptions mass = {};
   HullOptions hull = {};
   std::optional<DecomposeOptions> parts = {};  // unset: the mesh is not decomposed

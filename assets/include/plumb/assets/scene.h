@@ -23,6 +23,7 @@
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
 #include "plumb/assets/mesh.h"
+#include "plumb/assets/repair.h"
 #include "plumb/assets/result.h"
 #include "plumb/compound.h"
 #include "plumb/world.h"
@@ -51,6 +52,7 @@ struct SceneMesh {
   std::string path;                       // where that is, seen from the working directory
   std::optional<double> metres_per_unit;  // [m] > 0; unset: what the file says
   std::optional<Axis> up;                 // unset: what the file says
+  std::optional<RepairOptions> repair;    // unset: taken as it is
   // What the mesh collides as. Concave meshes may collide as their hull too, therefore the file has
   // to ask for it by name. A surface is for static and kinematic bodies and has no mass. Parts are
   // convex ones that keep the hollows of a concave solid.
@@ -232,8 +234,9 @@ struct SceneInstance {
   std::vector<SceneInstanceJoint> joints;    // the same for joints
   std::vector<SceneInstanceEffect> effects;  // the same for effects
   std::vector<SceneInstanceMesh> meshes;     // those that bodies use
-  // Worth knowing: concave meshes that collide as their hull, surfaces with open seams, parts that
-  // miss the distance asked for.
+  // Worth knowing: what a repair changed, meshes of a size that hints at a wrong unit, dynamic
+  // bodies whose colliders bring no mass, concave meshes that collide as their hull, surfaces with
+  // open seams, parts that miss the distance asked for.
   std::vector<std::string> notes;
   std::map<std::string, std::size_t, std::less<>> index_of;  // name to index in `bodies`
 

@@ -53,6 +53,8 @@ struct VerifyResult {
   Outcome outcome;          // not ok: no verdict
   bool finished = false;    // the recording has its end; else what there is was verified
   std::uint64_t steps = 0;  // compared
+  // Of diff(): steps that only one of the two has, where one goes on longer or begins earlier.
+  std::uint64_t not_compared = 0;
   std::optional<Difference> difference;
 
   [[nodiscard]] bool identical() const { return outcome.ok() && !difference; }
@@ -61,8 +63,8 @@ struct VerifyResult {
 // Simulates again from the recording alone: its first snapshot, its inputs, its time steps.
 VerifyResult verify(const std::string& path, const VerifyOptions& options = {});
 
-// Compares two recordings step by step, without simulating. Frames that only one of them has are
-// not compared.
+// Compares two recordings step by step, without simulating. Steps that only one of them has are
+// counted and not compared.
 VerifyResult diff(const std::string& path_a, const std::string& path_b);
 
 struct ResumeResult {
