@@ -399,7 +399,8 @@ class PartSearch {
     SweptShape core = other;
     core.scale = Num(1) - Num(2) * search_.allowance / thickness;
     ImpactSearch of_core = search_;
-    of_core.touching = search_.separation;
+    // Where a search stopped the core, the next one finds it touching.
+    of_core.touching = search_.separation + Num(2) * search_.tolerance;
     std::size_t i = 0;
     for_triangles(surface, other, [&](const SweptShape& part) {
       if (at_start_[i++] < near) {

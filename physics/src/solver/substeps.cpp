@@ -264,6 +264,7 @@ void run_substeps(WorldState& world) {
       if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
     });
     if (!world.turned_rows.empty()) renew_turned_rows(world);
+    if (!world.bouncing_rows.empty()) renew_bouncing_rows(world);
     if (ledger) charge_kick(world);
     if (joints) fly_joint_groups(world);
     if (ledger) charge_joint_flight(world);
@@ -299,6 +300,7 @@ void run_substeps(WorldState& world) {
     bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
     if (ledger) charge_drift(world);
     if (!world.turned_rows.empty()) renew_turned_rows(world);
+    if (!world.bouncing_rows.empty()) renew_bouncing_rows(world);
     if (newton) settle_newton_islands(world);
     if (newton && ledger) charge(world, &EnergyLedger::normal);
     if (joints) relax_joints(world);

@@ -1,5 +1,7 @@
 #include "solver/turned_rows.h"
 
+#include <algorithm>
+
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
 #include "world/tolerances.h"
@@ -105,6 +107,37 @@ void renew_turned_rows(WorldState& world) {
       if (world.substep[body].turned && !is_isotropic(world.bodies.mass[body]))
         turn_inertia(world, body);
   for (TurnedRow& turned : world.turned_rows) renew(world, turned);
+}
+
+void renew_bouncing_rows(WorldState& world) {
+  std::vector<std::uint8_t> turns;  // per dense body
+  const auto look_at = [&](std::uint32_t body) {
+    const SubstepBody& s = world.substep[body];
+    if (!s.constrained || s.jointed || is_isotropic(world.bodies.mass[body])) return;
+    const Vec half_turn{world.delta[body].dq.x, world.delta[body].dq.y, world.delta[body].dq.z};
+    const Real turn =
+        std::max(Real(2) * length(half_turn), world.dt * length(world.bodies.velocity[body].w));
+    if (!(turn > tolerance::kFastTurn)) return;
+    if (turns.empty()) turns.assign(world.bodies.awake_end, 0);
+    turns[body] = 1;
+  };
+  for (const std::uint32_t k : world.bouncing_rows) {
+    look_at(world.rows[k].body_a);
+    look_at(world.rows[k].body_b);
+  }
+  if (turns.empty()) return;
+  // All rows of a body see one inertia.
+  for (const ContactRow<Real>& row : world.rows)
+    if (!(row.restitution > Real(0))) turns[row.body_a] = turns[row.body_b] = 0;
+  for (std::uint32_t i = 0; i < turns.size(); ++i)
+    if (turns[i] != 0) turn_inertia(world, i);
+  for (const std::uint32_t k : world.bouncing_rows) {
+    ContactRow<Real>& row = world.rows[k];
+    if (turns[row.body_a] == 0 && turns[row.body_b] == 0) continue;
+    if (turns[row.body_a] != 0) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
+    if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
+    fill_responses(row);
+  }
 }
 
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row) {

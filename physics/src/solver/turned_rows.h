@@ -22,6 +22,11 @@ void find_turned_rows(WorldState& world);
 // bodies must agree (no row has acted since the last kick or drift).
 void renew_turned_rows(WorldState& world);
 
+// Rows that may bounce keep their arms: a bounce needs the places of the step's start. But a body
+// that it has set spinning is told to them with its inertia as of now; that of the step's start
+// would make energy out of every impulse. As above, before rows act.
+void renew_bouncing_rows(WorldState& world);
+
 // Motion of a row's bodies since the row was told.
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row);
 BodyDelta delta_of_b(const WorldState& world, const ContactRow<Real>& row);

@@ -63,6 +63,7 @@ struct Mover {
   bool carried = false;
   Path then;  // from `stop` to `end`, if carried
   Num end = 1;
+  NumVec lift{0, 0, 0};  // [m] out of what it sank into, for the part of the step that it waits
   std::vector<std::uint32_t>
       fast_others;  // colliders of other movers near the path of a flagged one
 };
@@ -70,6 +71,7 @@ struct Mover {
 struct Hit {
   Num time = kNever;
   std::uint32_t body = kNone;
+  NumVec lift{0, 0, 0};  // [m]
 };
 
 Num thickness_of(const ColliderInfo& a, const ColliderInfo& b) {
@@ -87,6 +89,14 @@ ImpactSearch search_for(const ColliderInfo& a, const ColliderInfo& b, Num begin,
   search.touching = static_cast<Num>(tolerance::kContinuousTouchSlops) * slop;
   search.allowance = static_cast<Num>(tolerance::kContinuousAllowance) * thickness;
   return search;
+}
+
+// What gets deeper each time it is stopped is worked off while it waits, as fast as contacts do.
+NumVec lift_from(const Impact& impact, const ImpactSearch& search, Num thickness, Real dt) {
+  if (impact.status != ImpactStatus::Deepens) return {0, 0, 0};
+  const Num rate = static_cast<Num>(tolerance::kPushRate) * thickness * static_cast<Num>(dt);
+  const Num most = std::max(search.separation - impact.distance, Num(0));
+  return std::min(most, (Num(1) - impact.time) * rate) * impact.normal;
 }
 
 SweptShape on_path(const ColliderInfo& collider, const Path& path) {
@@ -265,12 +275,14 @@ struct Follower {
         if (!(until > begin)) break;
         const Sweep sweep =
             sweep_of_step(world, world.bodies.info[collider.body].dense, mover.start);
-        const Impact impact = time_of_impact(swept_shape(collider, sweep), on_path(own, path),
-                                             search_for(own, collider, begin, until));
+        const ImpactSearch search = search_for(own, collider, begin, until);
+        const Impact impact =
+            time_of_impact(swept_shape(collider, sweep), on_path(own, path), search);
         if (impact.status == ImpactStatus::Apart ||
             passes_one_way(world, other, slot, impact.normal))
           continue;
-        first = {impact.time, collider.body};
+        first = {impact.time, collider.body,
+                 lift_from(impact, search, thickness_of(own, collider), world.dt)};
       }
     }
     return first;
@@ -281,7 +293,9 @@ struct Follower {
     const Hit hit = first_hit(mover, mover.first, 0, kNone);
     if (hit.body == kNone) return;
     mover.stop = hit.time;
+    mover.lift = hit.lift;
     if (!is_kinematic(world, hit.body)) return;
+    mover.lift = {0, 0, 0};
     const Sweep carrier = sweep_of_step(world, world.bodies.info[hit.body].dense, mover.start);
     const NumRotation q_K = carrier.rotation_at(hit.time);
     mover.carried = true;
@@ -384,6 +398,7 @@ void meet_one_another(const WorldState& world, std::vector<Mover>& movers) {
       if (!(t < mover.stop)) continue;
       mover.stop = t;
       mover.carried = false;
+      mover.lift = {0, 0, 0};
       mover.end = 1;
       changed[i] = true;
     }
@@ -421,15 +436,32 @@ void limit_spin(BodyStore& bodies, std::uint32_t dense, Rotation before, Rotatio
   if (has > had && has > Real(0)) L = std::sqrt(std::max(had, Real(0)) / has) * L;
 }
 
+// What the lift costs against gravity is taken from the motion.
+void pay_for_lift(WorldState& world, const Mover& mover, Rotation q) {
+  BodyStore& bodies = world.bodies;
+  const BodyMass& mass = bodies.mass[mover.dense];
+  Vec& v = bodies.velocity[mover.dense].v;
+  Vec& L = bodies.momentum[mover.dense].L;
+  const Real cost =
+      -mass.mass * dot(world.substep[mover.dense].acceleration, cast<Real>(mover.lift));
+  if (!(cost > Real(0))) return;
+  const Real twice = mass.mass * length_squared(v) + dot(L, angular_velocity_of(mass, q, L));
+  const Real kept = std::sqrt(std::max(Real(1) - Real(2) * cost / twice, Real(0)));
+  if (!(twice > Real(0))) return;
+  v = kept * v;
+  L = kept * L;
+}
+
 void stop_body(WorldState& world, const Mover& mover) {
   BodyStore& bodies = world.bodies;
   BodyDelta& delta = world.delta[mover.dense];
   BodyPose& pose = bodies.pose[mover.dense];
   const Rotation q = to_real(rotation_of(mover, 1));
-  const Vec dp = cast<Real>(position_of(mover, 1));
+  const Vec dp = cast<Real>(position_of(mover, 1) + mover.lift);
   if (!is_finite(q) || !is_finite(dp)) return;
   take_back_work(world, mover);
   delta.dp = dp;
+  pay_for_lift(world, mover, q);
   const bool exact = mover.first.sweep.tumbles && !mover.carried;
   if (flies_free(world, mover.dense)) {
     if (!exact) limit_spin(bodies, mover.dense, pose.q, q);

@@ -4,6 +4,7 @@
 // missed.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/newton/interior_point.h"
 #include "solver/newton/island_laws.h"
@@ -90,6 +91,19 @@ double take_over(Island& island) {
   return lack;
 }
 
+// Whether the impulses are so much larger than what acts that their sum has no digits left.
+// Friction can hold a jammed body under any stress: where overlap is to be worked off against that,
+// there may be no velocities that do it, and impulses that cancel grow without bound.
+bool impulses_cancel(const Island& island) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  double acts = 0, given = 0;
+  for (const IslandBody& body : island.bodies)
+    acts += body.weight + length(body.p.v) + length(body.p.w) / body.size;
+  for (const IslandContact& c : island.contacts)
+    for (int i = 0; i < c.count; ++i) given += length(c.points[i].center);
+  return !(kEpsilon * given <= tolerance::kMomentum * acts);
+}
+
 // M v = p + J^T l, with no part of the momentum lost to the tolerance of the solve.
 void velocities_from_impulses(Island& island) {
   std::vector<Twist>& sum = island.gradient;
@@ -170,6 +184,11 @@ void solve(Island& island) {
     island.has_factor = false;
   }
   island.fell_back = !found || island.lack > tolerance::kNotConverged * island.speed;
+  if (island.solves_positions && impulses_cancel(island)) {
+    island.v = island.v_rest;  // the overlap waits until the body is free
+    island.fell_back = true;
+    return;
+  }
   if (done) velocities_from_impulses(island);
 }
 
