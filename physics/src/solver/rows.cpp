@@ -76,18 +76,20 @@ void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real
 
 // A contact sinks by g/w^2 under its load: for no size to sink more than its share, w^2 must follow
 // g / thickness, as far as the substep allows [Catto 2024].
-Softness contact_softness(const WorldState& world, Real thickness, bool against_fixed) {
+Softness contact_softness(const WorldState& world, const ContactRow<Real>& row, Real thickness) {
   const Real pull = static_cast<Real>(world.settings.gravity.norm()) / thickness;
   const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
   const Real stiffest = tolerance::kStiffestContact / world.h;
-  const Real frequency = std::min(world.settings.contact_frequency * stiffer, stiffest);
-  if (against_fixed) {
-    return make_softness(frequency * tolerance::kStaticStiffness,
-                         world.settings.contact_damping_ratio, Real(1), world.h);
+  Real frequency = std::min(world.settings.contact_frequency * stiffer, stiffest);
+  Real masses = 1;
+  const bool at_once = row.count == 1 || row.has_block > Real(0);
+  if (!row.both_dynamic) {
+    frequency *= tolerance::kStaticStiffness;
+  } else if (at_once) {  // points that take turns are a spring each, and stiff enough
+    const Real room = stiffest / frequency;  // a spring of s masses is sqrt(s) times as fast
+    masses = std::min(tolerance::kContactMasses, room * room);
   }
-  const Real room = stiffest / frequency;  // a spring of s masses is sqrt(s) times as fast
-  return make_softness(frequency, world.settings.contact_damping_ratio,
-                       std::min(tolerance::kContactMasses, room * room), world.h);
+  return make_softness(frequency, world.settings.contact_damping_ratio, masses, world.h);
 }
 
 // Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points
@@ -224,7 +226,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.friction = pair.friction;
   row.restitution = pair.restitution;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
-  const Softness softness = contact_softness(world, thickness, !row.both_dynamic);
+  const Softness softness = contact_softness(world, row, thickness);
   row.bias_rate = softness.bias_rate;
   row.mass_scale = softness.mass_scale;
   row.impulse_scale = softness.impulse_scale;
