@@ -293,9 +293,11 @@ struct Follower {
     const Hit hit = first_hit(mover, mover.first, 0, kNone);
     if (hit.body == kNone) return;
     mover.stop = hit.time;
-    mover.lift = hit.lift;
-    if (!is_kinematic(world, hit.body)) return;
-    mover.lift = {0, 0, 0};
+    if (!is_kinematic(world, hit.body)) {
+      // What is lifted alone would be torn from what a joint ties it to.
+      if (!world.substep[mover.dense].jointed) mover.lift = hit.lift;
+      return;
+    }
     const Sweep carrier = sweep_of_step(world, world.bodies.info[hit.body].dense, mover.start);
     const NumRotation q_K = carrier.rotation_at(hit.time);
     mover.carried = true;
