@@ -43,10 +43,11 @@ class PlainBodies {
     for_chunks([&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) {
         const SubstepBody& s = world.substep[i];
-        world.body_ways[i] = !is_plain(world, i)             ? BodyWay::Other
-                             : s.constrained && !s.split     ? BodyWay::Held
-                             : !s.constrained && !s.affected ? BodyWay::Free
-                                                             : BodyWay::Other;
+        // Effects may damp a body from substep to substep.
+        world.body_ways[i] = !is_plain(world, i) || s.affected ? BodyWay::Other
+                             : !s.constrained                  ? BodyWay::Free
+                             : !s.split                        ? BodyWay::Held
+                                                               : BodyWay::Other;
       }
     });
   }

@@ -129,12 +129,16 @@ Built build_everything(PhysicsWorld& world) {
   must(world.create_joint(ball));
   return built;
 }
-std::vector<std::uint64_t> hashes(int kernel_bits) {
+std::vector<std::uint64_t> hashes(int kernel_bits, bool with_effects) {
   PhysicsWorld world;
   StepDiagnostics diagnostics;
   diagnostics.kernel_bits = kernel_bits;
   world.set_diagnostics(diagnostics);
   build_everything(world);
+  if (with_effects) {
+    must(world.create_effect({.kind = Drag{.linear = 2, .quadratic = real(0.3)}}));
+    must(world.create_effect({.kind = Magnus{real(0.05)}}));
+  }
   std::vector<std::uint64_t> out;
   for (int i = 0; i < 150; ++i) {
     world.step(1.0 / 60);
@@ -142,13 +146,15 @@ std::vector<std::uint64_t> hashes(int kernel_bits) {
   }
   return out;
 }
-TEST(Wide, AStepHasTheSameBitsForEveryVectorLength) {
-  const std::vector<std::uint64_t> alone = hashes(1);
-  EXPECT_EQ(alone, hashes(128));
-  EXPECT_EQ(alone, hashes(256));
-  EXPECT_EQ(alone, hashes(512));
-  EXPECT_EQ(alone, hashes(0));
+void expect_the_same_bits(bool with_effects) {
+  const std::vector<std::uint64_t> alone = hashes(1, with_effects);
+  EXPECT_EQ(alone, hashes(128, with_effects));
+  EXPECT_EQ(alone, hashes(256, with_effects));
+  EXPECT_EQ(alone, hashes(512, with_effects));
+  EXPECT_EQ(alone, hashes(0, with_effects));
 }
+TEST(Wide, AStepHasTheSameBitsForEveryVectorLength) { expect_the_same_bits(false); }
+TEST(Wide, AStepHasTheSameBitsWhereEffectsActOnWhatTouches) { expect_the_same_bits(true); }
 
 }  // namespace
 }  // namespace plumb::inline PLUMB_ABI

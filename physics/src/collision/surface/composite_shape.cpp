@@ -1,6 +1,7 @@
 #include "collision/surface/composite_shape.h"
 
 #include <cmath>
+#include <limits>
 
 #include "collision/surface/heightfield_surface.h"
 #include "collision/surface/mesh_surface.h"
@@ -148,7 +149,11 @@ CompoundGeometry::Result CompoundGeometry::create(std::span<const Child> childre
     if (std::abs(child.pose.orientation.norm() - Real(1)) > kUnit)
       return bad(StatusCode::OutOfRange,
                  "a compound child's orientation must be a unit quaternion (length 1 within 1e-3)");
-    child.pose.orientation.normalize();
+    // What is of unit length to rounding stays as it is: made again from a snapshot, a compound has
+    // the same bits.
+    constexpr Real kRounding = Real(8) * std::numeric_limits<Real>::epsilon();
+    if (std::abs(child.pose.orientation.squaredNorm() - Real(1)) > kRounding)
+      child.pose.orientation.normalize();
     made.placed = {to_inner(child.pose.position), to_inner(child.pose.orientation)};
     const Aabb box = bounds_of(made.shape, made.placed);
     const Vec far = max_each(absolute(box.lower), absolute(box.upper));

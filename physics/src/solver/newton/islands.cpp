@@ -53,6 +53,15 @@ void for_links(const WorldState& world, Task&& task) {
   }
 }
 
+// The awake bodies by slot: where they lie in memory differs in a world that was restored.
+std::vector<std::uint32_t> awake_by_slot(const WorldState& world) {
+  const BodyStore& bodies = world.bodies;
+  std::vector<std::uint32_t> slots(bodies.slot_of.begin() + bodies.awake_begin,
+                                   bodies.slot_of.begin() + bodies.awake_end);
+  std::sort(slots.begin(), slots.end());
+  return slots;
+}
+
 // Gives every component of bodies that something touches or holds an island, by smallest body.
 void number_islands(WorldState& world, Solver& solver) {
   const std::uint32_t end = world.bodies.awake_end;
@@ -68,7 +77,8 @@ void number_islands(WorldState& world, Solver& solver) {
   });
   solver.count = 0;
   std::vector<std::uint32_t> island_of(end, kNone);
-  for (std::uint32_t i = world.bodies.awake_begin; i < end; ++i) {
+  for (const std::uint32_t slot : awake_by_slot(world)) {
+    const std::uint32_t i = world.bodies.info[slot].dense;
     const std::uint32_t root = root_of(solver.parents, i);
     if (held[i] == 0) continue;
     if (island_of[root] == kNone) {
