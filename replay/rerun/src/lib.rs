@@ -5,6 +5,7 @@
 //! nor lose the reason, and the walk over the file (`reader.rs`), because a cut tail must be told
 //! apart from an end.
 
+mod arrow_payload;
 mod blueprint;
 mod columns;
 mod components;

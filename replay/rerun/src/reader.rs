@@ -14,10 +14,13 @@ use arrow::array::{
 use arrow::datatypes::{DataType, Float32Type, Float64Type, UInt8Type, UInt32Type, UInt64Type};
 use re_chunk::Chunk;
 use re_log_encoding::{
-    Decodable, DecoderApp, MessageHeader, MessageKind, StreamFooter, StreamHeader,
+    CachingApplicationIdInjector, Decodable, DecoderTransport, MessageHeader, MessageKind,
+    StreamFooter, StreamHeader, ToApplication,
 };
 use re_log_types::{EntityPath, LogMsg};
+use re_protos::log_msg::v1alpha1::log_msg::Msg;
 
+use crate::arrow_payload;
 use crate::columns::ValueType;
 use crate::failure::{Code, Failure, reason_of};
 
@@ -186,10 +189,18 @@ fn decode(
     summary: &mut CSummary,
     at: &mut u64,
 ) -> Result<(), Failure> {
-    let mut decoder = DecoderApp::decode_lazy(whole);
+    let mut decoder = DecoderTransport::decode_lazy(whole);
+    let mut ids = CachingApplicationIdInjector::default();
     while let Some(message) = decoder.next() {
         *at = decoder.num_bytes_processed();
-        match message.map_err(|e| damaged(path, *at, e))? {
+        let mut message = message.map_err(|e| damaged(path, *at, e))?;
+        if let Msg::ArrowMsg(arrow) = &mut message {
+            arrow_payload::unpack(arrow).map_err(|e| damaged(path, *at, e))?;
+        }
+        match message
+            .to_application((&mut ids, None))
+            .map_err(|e| damaged(path, *at, e))?
+        {
             LogMsg::SetStoreInfo(info) if info.info.store_id.is_recording() => {
                 let store = &info.info.store_id;
                 copy_id(&mut summary.application_id, store.application_id().as_str());
