@@ -164,6 +164,23 @@ TEST(SceneInstantiate, LeavesTheWorldAloneOnAnError) {
   EXPECT_EQ(world.settings().substeps, before.substeps);
 }
 
+// A program reads meshes apart from itself: what takes too long there is an error that names the
+// mesh, and what is read is what is read in the same process.
+TEST(SceneInstantiate, ReadsMeshesInAnotherProcessIfAsked) {
+  const auto scene = assets::load_scene(kScenes + "hollow.json");
+  ASSERT_TRUE(scene.ok()) << scene.error();
+  PhysicsWorld here, apart, late;
+  ASSERT_TRUE(instantiate(*scene, here).ok());
+  ASSERT_TRUE(instantiate(*scene, apart, {.guarded = true}).ok());
+  EXPECT_EQ(here.state_hash(), apart.state_hash());
+  EXPECT_GT(here.body_count(), 0u);
+  const auto refused = instantiate(*scene, late, {.guarded = true, .time_limit = 1e-9});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().find("did not finish within"), std::string::npos) << refused.error();
+  EXPECT_NE(refused.error().find("mesh '"), std::string::npos) << refused.error();
+  EXPECT_EQ(late.body_count(), 0u);
+}
+
 TEST(SceneRepeat, StandsOnTheGridWithinTheJitter) {
   assets::SceneRepeat repeat;
   repeat.count = {3, 2, 4};

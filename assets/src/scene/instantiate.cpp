@@ -212,7 +212,8 @@ EffectId SceneInstance::find_effect(std::string_view name) const {
   return found == effects.end() ? EffectId{} : found->id;
 }
 
-Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
+Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world,
+                                  const InstantiateOptions& options) {
   Undo undo(world);
   if (const Status status = world.set_settings(scene.settings); !status.ok()) {
     return Error{scene.source + ": settings: " + status.message};
@@ -224,7 +225,7 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world) {
       return Error{place_of(scene, pair.line) + ": material pair: " + status.message};
   }
   SceneInstance instance;
-  MeshStore meshes(scene);
+  MeshStore meshes(scene, options);
   ShapeMaker shapes(scene, meshes);
   for (const SceneBody& body : scene.bodies) {
     const Result<Template> model = make_template(scene, body, meshes, shapes);

@@ -28,7 +28,9 @@ std::string MeshStore::read(PreparedMesh& prepared) const {
   ImportOptions options;
   options.metres_per_unit = source.metres_per_unit;
   options.file_up = source.up;
-  Result<Imported> imported = import_mesh(source.path, options);
+  Result<Imported> imported = options_.guarded
+                                  ? import_mesh_guarded(source.path, options, options_.time_limit)
+                                  : import_mesh(source.path, options);
   if (!imported.ok()) return imported.error();
   prepared.mesh = std::move(imported.value().mesh);
   if (source.repair) {

@@ -28,7 +28,8 @@ struct PreparedMesh {
 
 class MeshStore {
  public:
-  explicit MeshStore(const plumb::PLUMB_ABI::assets::Scene& scene) : scene_(scene) {}
+  MeshStore(const plumb::PLUMB_ABI::assets::Scene& scene, const InstantiateOptions& options)
+      : scene_(scene), options_(options) {}
 
   Result<std::size_t> index_of(const std::string& name);
   [[nodiscard]] const PreparedMesh& at(std::size_t index) const { return meshes_[index]; }
@@ -46,6 +47,7 @@ class MeshStore {
   static std::string make_parts(PreparedMesh& prepared);
 
   const plumb::PLUMB_ABI::assets::Scene& scene_;
+  InstantiateOptions options_;
   std::vector<PreparedMesh> meshes_;
 };
 

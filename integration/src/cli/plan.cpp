@@ -16,7 +16,7 @@ int print_plan(const std::string& path) {
     return kBadInput;
   }
   PhysicsWorld world;
-  const auto instance = assets::instantiate(*scene, world);
+  const auto instance = assets::instantiate(*scene, world, {.guarded = true});
   if (!instance.ok()) {
     complain(instance.error());
     return kBadInput;

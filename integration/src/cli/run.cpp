@@ -85,15 +85,16 @@ int run_scene(const RunOptions& options) {
       options.steps ? static_cast<std::uint64_t>(*options.steps) : scene.step.count();
   if (options.steps) scene.step.duration = static_cast<double>(steps) * scene.step.dt;
 
-  const std::unique_ptr<JobSystem> jobs =
-      options.threads == 1 ? nullptr : make_thread_pool(options.threads);
   scene.settings.profiling = !options.output.empty();  // a recording shows the stages' times
+  std::unique_ptr<JobSystem> jobs;  // outlives the world; made when all meshes are read by forks
   PhysicsWorld world;
-  const assets::Result<assets::SceneInstance> instance = assets::instantiate(scene, world);
+  const assets::Result<assets::SceneInstance> instance =
+      assets::instantiate(scene, world, {.guarded = true});
   if (!instance.ok()) {
     complain(instance.error());
     return kBadInput;
   }
+  if (options.threads != 1) jobs = make_thread_pool(options.threads);
   world.set_job_system(jobs.get());
   if (!options.quiet) {
     for (const std::string& note : instance->notes) complain("note: " + note);

@@ -246,8 +246,16 @@ struct SceneInstance {
   [[nodiscard]] EffectId find_effect(std::string_view name) const;
 };
 
+struct InstantiateOptions {
+  // Meshes are read in child processes (import_mesh_guarded), so that a file which crashes or hangs
+  // its reader is an error like any other. For tools; a game with threads must not fork.
+  bool guarded = false;
+  double time_limit = 60;  // [s] > 0 for each guarded reading
+};
+
 // Builds the scene in the world and gives the world its settings. On an error the world is left
 // with the bodies and settings that it had before.
-Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world);
+Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world,
+                                  const InstantiateOptions& options = {});
 
 }  // namespace plumb::inline PLUMB_ABI::assets
