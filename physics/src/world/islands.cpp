@@ -104,6 +104,7 @@ void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
 // Takes the touching pairs of all bodies that just fell asleep out of the awake ones. A pair that
 // only has overlapping bounds is forgotten; waking seeks it again.
 void move_pairs_to_islands(WorldState& world) {
+  world.sleeping_contacts.forget();
   world.pairs.remove_if([&](Pair& pair) {
     const std::uint32_t in_a = world.bodies.info[pair.body_a].island;
     const std::uint32_t in_b = world.bodies.info[pair.body_b].island;
@@ -135,6 +136,7 @@ void wake_body(WorldState& world, std::uint32_t body) {
     if (world.effects != nullptr && !world.effects->empty()) wake_tied(world, body);
     return;
   }
+  world.sleeping_contacts.forget();
   const std::uint32_t index = info.island;
   SleepingIsland island = std::move(world.islands[index]);
   world.islands[index] = {};

@@ -65,8 +65,8 @@ struct Contact {
   // Slot of the body from whose centre of mass positions are seen; kNone: the pair does not touch.
   // Valid after the step until a pair is changed (WorldState::contacts_fit).
   std::uint32_t seen_from = kNone;
-  Manifold manifold;  // positions from that body's centre of mass, world axes
   Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step
+  Manifold manifold;     // positions from that body's centre of mass, world axes
   bool at_rest = false;  // the contact solver, not a bounce, carried it in the last substep
   Real radius_a = 0, radius_b = 0;  // [m] of the rounded shapes that touch; 0 for the others
   // A swept pair's manifold is that of the moment of first touch: B is then this much farther

@@ -9,8 +9,8 @@ namespace plumb::inline PLUMB_ABI {
 namespace detail {
 namespace {
 
-std::shared_ptr<const FactsCache::Facts> make_facts(const WorldState& world) {
-  auto facts = std::make_shared<FactsCache::Facts>();
+std::shared_ptr<const BodyFactsList> make_facts(const WorldState& world) {
+  auto facts = std::make_shared<BodyFactsList>();
   facts->reserve(world.bodies.alive_count);
   const Eigen::Vector3d gravity = world.settings.gravity.cast<double>();
   for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot) {
@@ -30,7 +30,8 @@ std::shared_ptr<const FactsCache::Facts> make_facts(const WorldState& world) {
   return facts;
 }
 
-// Contacts are large and lie in a row, and of each only a part is read: the memory is told early.
+// Contacts are large and lie in a row, and of each only the begin is read: the memory is told
+// early.
 constexpr std::size_t kPrefetched = 8;  // [-] contacts ahead
 void prefetch(const std::vector<Contact>& contacts, std::size_t i) {
 #if defined(__GNUC__) || defined(__clang__)
@@ -39,42 +40,43 @@ void prefetch(const std::vector<Contact>& contacts, std::size_t i) {
   __builtin_prefetch(&contact);
   __builtin_prefetch(&contact.manifold.points[1]);
   __builtin_prefetch(&contact.manifold.points[3]);
-  __builtin_prefetch(&contact.step_normal_impulse);
 #else
   static_cast<void>(contacts), static_cast<void>(i);
 #endif
 }
 
-// Calls visit(slot of the body it is seen from, contact) for each that touches.
-template <class Visit>
-void for_each_touching(const WorldState& world, Visit&& visit) {
-  const auto visit_pair = [&](const Pair& pair, const std::vector<Contact>& store) {
-    if (pair.contact_count == 0 || !pair.was_touching) return;
-    const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
-    for (const Contact& contact : contacts_of(pair, store)) visit(seen_from, contact);
-  };
+void add(ImageContacts& out, std::uint32_t seen_from, const Contact& from) {
+  out.contacts.push_back(
+      {seen_from, static_cast<std::uint32_t>(from.manifold.count), from.manifold.normal});
+  for (int i = 0; i < from.manifold.count; ++i)
+    out.points.push_back({from.manifold.points[i].position, from.step_normal_impulse[i]});
+}
+
+void add_touching(ImageContacts& out, const Pair& pair, const std::vector<Contact>& store) {
+  if (pair.contact_count == 0 || !pair.was_touching) return;
+  const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
+  for (const Contact& contact : contacts_of(pair, store)) add(out, seen_from, contact);
+}
+
+void copy_awake_contacts(const WorldState& world, ImageContacts& out) {
+  out.contacts.clear();
+  out.points.clear();
   if (world.pairs.changes() == world.contacts_fit) {  // no look at the pairs
     for (std::size_t i = 0; i < world.contacts.size(); ++i) {
       prefetch(world.contacts, i + kPrefetched);
       const Contact& contact = world.contacts[i];
-      if (contact.seen_from != kNone) visit(contact.seen_from, contact);
+      if (contact.seen_from != kNone) add(out, contact.seen_from, contact);
     }
   } else {
-    for (const Pair& pair : world.pairs) visit_pair(pair, world.contacts);
+    for (const Pair& pair : world.pairs) add_touching(out, pair, world.contacts);
   }
-  for (const SleepingIsland& island : world.islands)
-    for (const Pair& pair : island.pairs) visit_pair(pair, island.contacts);
 }
 
-void copy_contacts(const WorldState& world, ImageColumns& out) {
-  out.contacts.clear();
-  out.points.clear();
-  for_each_touching(world, [&](std::uint32_t seen_from, const Contact& from) {
-    out.contacts.push_back(
-        {seen_from, static_cast<std::uint32_t>(from.manifold.count), from.manifold.normal});
-    for (int i = 0; i < from.manifold.count; ++i)
-      out.points.push_back({from.manifold.points[i].position, from.step_normal_impulse[i]});
-  });
+std::shared_ptr<const ImageContacts> make_sleeping_contacts(const WorldState& world) {
+  auto out = std::make_shared<ImageContacts>();
+  for (const SleepingIsland& island : world.islands)
+    for (const Pair& pair : island.pairs) add_touching(*out, pair, island.contacts);
+  return out;
 }
 
 }  // namespace
@@ -91,7 +93,9 @@ void PhysicsWorld::copy_image(WorldImage& image) const {
   out.awake_end = bodies.awake_end;
   out.dense_of.resize(bodies.info.size());
   for (std::uint32_t i = 1; i < bodies.dense_count(); ++i) out.dense_of[bodies.slot_of[i]] = i;
-  detail::copy_contacts(*state_, out);
+  detail::copy_awake_contacts(*state_, out.awake);
+  out.asleep =
+      state_->sleeping_contacts.get([this] { return detail::make_sleeping_contacts(*state_); });
 }
 
 WorldImage::WorldImage() = default;
@@ -113,13 +117,17 @@ void WorldImage::copy_body_states(std::vector<BodyState>& out) const {
 void WorldImage::copy_contact_points(std::vector<ContactPoint>& out) const {
   out.clear();
   if (!columns_) return;
-  const detail::ImagePoint* point = columns_->points.data();
-  for (const detail::ImageContact& contact : columns_->contacts) {
-    const detail::PosVec origin = columns_->pose[columns_->dense_of[contact.reference]].x;
-    for (std::uint32_t i = 0; i < contact.point_count; ++i, ++point)
-      out.push_back(
-          detail::contact_point(origin, point->position, contact.normal, point->normal_impulse));
-  }
+  const auto append = [&](const detail::ImageContacts& from) {
+    const detail::ImagePoint* point = from.points.data();
+    for (const detail::ImageContact& contact : from.contacts) {
+      const detail::PosVec origin = columns_->pose[columns_->dense_of[contact.reference]].x;
+      for (std::uint32_t i = 0; i < contact.point_count; ++i, ++point)
+        out.push_back(
+            detail::contact_point(origin, point->position, contact.normal, point->normal_impulse));
+    }
+  };
+  append(columns_->awake);
+  append(*columns_->asleep);
 }
 
 EnergyReport WorldImage::energy() const {

@@ -21,24 +21,6 @@ struct BodyFacts {
   bool disabled = false;
 };
 
-// The facts of all bodies, made again when one was changed, and shared by the images taken since.
-class FactsCache {
- public:
-  using Facts = std::vector<BodyFacts>;  // ascending slots
-  FactsCache() = default;
-  void forget() { facts_.reset(); }
-  template <class Make>
-  std::shared_ptr<const Facts> get(Make&& make) {  // from any thread
-    const std::lock_guard lock(mutex_);
-    if (!facts_) facts_ = make();
-    return facts_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::shared_ptr<const Facts> facts_;
-};
-
 struct ImageContact {
   std::uint32_t reference = 0;  // slot of the body from whose centre of mass positions are seen
   std::uint32_t point_count = 0;
@@ -49,16 +31,39 @@ struct ImagePoint {
   Real normal_impulse = 0;  // [N s] over the step
 };
 
+struct ImageContacts {
+  std::vector<ImageContact> contacts;
+  std::vector<ImagePoint> points;  // of all contacts, one after the other
+};
+
+// Something that seldom changes: made again when it did, and shared by the images taken since.
+template <class T>
+class SharedPart {
+ public:
+  void forget() { made_.reset(); }
+  template <class Make>
+  std::shared_ptr<const T> get(Make&& make) {  // from any thread
+    const std::lock_guard lock(mutex_);
+    if (!made_) made_ = make();
+    return made_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::shared_ptr<const T> made_;
+};
+using BodyFactsList = std::vector<BodyFacts>;  // ascending slots
+
 struct ImageColumns {
-  std::shared_ptr<const FactsCache::Facts> facts;
+  std::shared_ptr<const BodyFactsList> facts;
   // By dense index, as in BodyStore.
   std::vector<BodyVelocity> velocity;
   std::vector<BodyPose> pose;
   std::vector<BodyMomentum> momentum;
   std::uint32_t awake_end = 1;
   std::vector<std::uint32_t> dense_of;  // by slot
-  std::vector<ImageContact> contacts;
-  std::vector<ImagePoint> points;  // of all contacts, one after the other
+  ImageContacts awake;
+  std::shared_ptr<const ImageContacts> asleep;  // of pairs in sleeping islands
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

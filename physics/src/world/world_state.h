@@ -158,7 +158,9 @@ struct WorldState {
   LedgerBook ledger;
   std::unique_ptr<PhysicsWorld> twin;  // for the error estimate; with the image it is made from
   Snapshot twin_image;
-  mutable FactsCache facts;  // for images
+  // For images: what only an input changes, and what only falling asleep and waking change.
+  mutable SharedPart<BodyFactsList> facts;
+  mutable SharedPart<ImageContacts> sleeping_contacts;
   std::vector<OverlapChange> overlap_changes;
   std::vector<SensorOverlap> new_overlaps;
   std::vector<std::uint8_t> leaves_box;  // of `moved`
