@@ -387,11 +387,12 @@ class PartSearch {
     }
     ImpactSearch start = search_;
     start.end = start.begin;
-    at_start_.clear();
+    static thread_local std::vector<Num> at_start;  // [m] how far each is; kept for its storage
+    at_start.clear();
     Num least = std::numeric_limits<Num>::infinity();
     for_triangles(surface, other, [&](const SweptShape& part) {
-      at_start_.push_back(Search(part, other, start).run().first_distance);
-      least = std::min(least, at_start_.back());
+      at_start.push_back(Search(part, other, start).run().first_distance);
+      least = std::min(least, at_start.back());
     });
     best_.touched = best_.touched || least < search_.touching;
     const Num near =
@@ -403,7 +404,7 @@ class PartSearch {
     of_core.touching = search_.separation + Num(2) * search_.tolerance;
     std::size_t i = 0;
     for_triangles(surface, other, [&](const SweptShape& part) {
-      if (at_start_[i++] < near) {
+      if (at_start[i++] < near) {
         try_part(part, core, of_core);
       } else {
         try_part(part, other, search_);
@@ -438,7 +439,6 @@ class PartSearch {
 
   const ImpactSearch& search_;
   Impact best_;
-  std::vector<Num> at_start_;  // [m] how far the triangles of a surface were
 };
 
 }  // namespace

@@ -65,8 +65,9 @@ void link_bodies_of(WorldState& world, EffectScratch& scratch, std::uint32_t slo
     add(effect.body);
     return;
   }
-  std::vector<std::uint32_t> awake(world.bodies.slot_of.begin() + world.bodies.awake_begin,
-                                   world.bodies.slot_of.begin() + world.bodies.awake_end);
+  StepList<std::uint32_t> awake(world.bodies.slot_of.begin() + world.bodies.awake_begin,
+                                world.bodies.slot_of.begin() + world.bodies.awake_end,
+                                &world.memory);
   std::sort(awake.begin(), awake.end());
   for (const std::uint32_t body : awake) {
     if (world.bodies.info[body].type != MotionType::Dynamic) continue;

@@ -20,8 +20,8 @@ constexpr std::size_t reals_of(int points) {
 constexpr std::size_t kFewestRows = 2;
 
 // Bounces look at all rows of the bodies that may bounce, and change them.
-std::vector<std::uint8_t> bodies_that_bounce(const WorldState& world) {
-  std::vector<std::uint8_t> bounces;
+StepList<std::uint8_t> bodies_that_bounce(WorldState& world) {
+  StepList<std::uint8_t> bounces(&world.memory);
   if (world.bouncing_rows.empty()) return bounces;
   bounces.assign(world.bodies.dense_count(), 0);
   for (const std::uint32_t k : world.bouncing_rows) {
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> bodies_that_bounce(const WorldState& world) {
   return bounces;
 }
 
-bool fits_block(const WorldState& world, const std::vector<std::uint8_t>& bounces,
+bool fits_block(const WorldState& world, const StepList<std::uint8_t>& bounces,
                 const ContactRow<Real>& row) {
   if (!bounces.empty() && (bounces[row.body_a] | bounces[row.body_b]) != 0) return false;
   if (row.turned != ContactRow<Real>::kNotTurned) return false;
@@ -98,13 +98,13 @@ class Sorter {
       ContactRow<Real>& row = world_.rows[i];
       if (is_deep(row) != deep) continue;
       if (blocks_.kernel.lanes > 1 && fits_block(world_, bounces_, row)) {
-        by_points_[row.count - 1].push_back(i);
+        blocks_.by_points[row.count - 1].push_back(i);
       } else {
         blocks_.loose.push_back(i);
       }
     }
     for (int points = 1; points <= ContactRow<Real>::kMaxPoints; ++points) {
-      std::vector<std::uint32_t>& rows = by_points_[points - 1];
+      std::vector<std::uint32_t>& rows = blocks_.by_points[points - 1];
       const std::size_t lanes = static_cast<std::size_t>(blocks_.kernel.lanes);
       std::size_t taken = 0;
       for (; rows.size() - taken >= kFewestRows; taken = std::min(taken + lanes, rows.size()))
@@ -133,8 +133,7 @@ class Sorter {
 
   WorldState& world_;
   ContactBlocks& blocks_;
-  std::vector<std::uint8_t> bounces_;  // per dense body; empty where nothing bounces
-  std::vector<std::uint32_t> by_points_[ContactRow<Real>::kMaxPoints];
+  StepList<std::uint8_t> bounces_;  // per dense body; empty where nothing bounces
   std::size_t reals_ = 0;
 };
 

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "collision/manifold.h"
 #include "solver/block_pass.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -30,6 +31,7 @@ struct ContactBlocks {
   std::vector<std::uint32_t> loose;  // rows that stay alone, by colour, depth
   std::vector<Color> colors;
   std::vector<Line> numbers;
+  std::vector<std::uint32_t> by_points[Manifold::kMaxPoints];  // scratch: rows of one colour
 
   [[nodiscard]] Real* data() { return reinterpret_cast<Real*>(numbers.data()); }
 };

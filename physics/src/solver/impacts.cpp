@@ -40,10 +40,10 @@ struct Meeting {
 
 struct Impacts {
   WorldState& world;
-  std::vector<Meeting> meetings;    // per bouncing row
-  std::vector<Real> local_time;     // per dense body: its last event [s]
-  std::vector<std::uint32_t> best;  // per dense body: its earliest bouncing row
-  std::vector<std::uint8_t> stale;  // per dense body: hit in the last pass
+  StepList<Meeting> meetings;    // per bouncing row
+  StepList<Real> local_time;     // per dense body: its last event [s]
+  StepList<std::uint32_t> best;  // per dense body: its earliest bouncing row
+  StepList<std::uint8_t> stale;  // per dense body: hit in the last pass
 
   Vec acceleration(std::uint32_t body) const {
     return world.substep[body].constrained ? world.substep[body].acceleration : Vec{0, 0, 0};
@@ -398,10 +398,11 @@ void share_with_contact_solver(Impacts& impacts) {
 
 void run_impacts(WorldState& world) {
   const std::size_t count = world.bouncing_rows.size();
-  Impacts impacts{world, std::vector<Meeting>(count),
-                  std::vector<Real>(world.bodies.awake_end, Real(0)),
-                  std::vector<std::uint32_t>(world.bodies.awake_end, kNone),
-                  std::vector<std::uint8_t>(world.bodies.awake_end, 1)};
+  StepMemory* const memory = &world.memory;
+  const std::uint32_t bodies = world.bodies.awake_end;
+  Impacts impacts{world, StepList<Meeting>(count, memory), StepList<Real>(bodies, Real(0), memory),
+                  StepList<std::uint32_t>(bodies, kNone, memory),
+                  StepList<std::uint8_t>(bodies, 1, memory)};
   for (const std::uint32_t k : world.bouncing_rows) world.rows[k].bounces = 0;
   for (int pass = 0; pass < tolerance::kMaxImpactPasses; ++pass) {
     std::fill(impacts.best.begin(), impacts.best.end(), kNone);

@@ -110,7 +110,7 @@ void renew_turned_rows(WorldState& world) {
 }
 
 void renew_bouncing_rows(WorldState& world) {
-  std::vector<std::uint8_t> turns;  // per dense body
+  StepList<std::uint8_t> turns(&world.memory);  // per dense body
   const auto look_at = [&](std::uint32_t body) {
     const SubstepBody& s = world.substep[body];
     if (!s.constrained || s.jointed || is_isotropic(world.bodies.mass[body])) return;

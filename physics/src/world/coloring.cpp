@@ -27,8 +27,8 @@ void color_contacts(WorldState& world) {
                                                                          : nullptr;
   };
   const bool newton = world.newton != nullptr && world.newton->count > 0;
-  std::vector<std::uint32_t> counts(kColors + 1, 0);
-  std::vector<std::uint8_t> color_of(world.contacts.size());
+  std::uint32_t counts[kColors + 1] = {};
+  StepList<std::uint8_t> color_of(world.contacts.size(), &world.memory);
   for (std::size_t i = 0; i < world.contacts.size(); ++i) {
     const Pair& pair = world.pairs[world.contacts[i].pair];
     std::uint64_t* a = mask_of(pair.body_a);

@@ -64,8 +64,6 @@ struct Mover {
   Path then;  // from `stop` to `end`, if carried
   Num end = 1;
   NumVec lift{0, 0, 0};  // [m] out of what it sank into, for the part of the step that it waits
-  std::vector<std::uint32_t>
-      fast_others;  // colliders of other movers near the path of a flagged one
 };
 
 struct Hit {
@@ -131,7 +129,7 @@ bool moved_far(const WorldState& world, std::uint32_t dense) {
 }
 
 // Slots of awake bodies that moved far, ascending.
-std::vector<std::uint32_t> bodies_that_moved_far(WorldState& world) {
+StepList<std::uint32_t> bodies_that_moved_far(WorldState& world) {
   const BodyStore& bodies = world.bodies;
   const std::uint32_t count = bodies.awake_end - bodies.awake_begin;
   const std::uint32_t chunks = (count + tolerance::kBodyGrain - 1) / tolerance::kBodyGrain;
@@ -143,7 +141,7 @@ std::vector<std::uint32_t> bodies_that_moved_far(WorldState& world) {
     for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end; ++i)
       if (moved_far(world, i)) list.push_back(bodies.slot_of[i]);
   });
-  std::vector<std::uint32_t> all;
+  StepList<std::uint32_t> all(&world.memory);
   for (std::uint32_t c = 0; c < chunks; ++c)
     all.insert(all.end(), found[c].begin(), found[c].end());
   std::sort(all.begin(), all.end());
@@ -193,10 +191,9 @@ bool runs_into(const WorldState& world, std::uint32_t kinematic, std::uint32_t d
 
 // Dynamic bodies on the paths of fast kinematic ones join those that moved far themselves. Sleepers
 // among them are woken by the contact that the next step finds.
-std::vector<Mover> movers_of(WorldState& world) {
-  const std::vector<std::uint32_t> far = bodies_that_moved_far(world);
-  std::vector<std::uint32_t> dynamic;
-  for (const std::uint32_t body : far) {
+StepList<Mover> movers_of(WorldState& world) {
+  StepList<std::uint32_t> dynamic(&world.memory);
+  for (const std::uint32_t body : bodies_that_moved_far(world)) {
     if (is_dynamic(world, body)) {
       dynamic.push_back(body);
       continue;
@@ -218,7 +215,7 @@ std::vector<Mover> movers_of(WorldState& world) {
   }
   std::sort(dynamic.begin(), dynamic.end());
   dynamic.erase(std::unique(dynamic.begin(), dynamic.end()), dynamic.end());
-  std::vector<Mover> movers(dynamic.size());
+  StepList<Mover> movers(dynamic.size(), &world.memory);
   for (std::size_t i = 0; i < movers.size(); ++i) {
     movers[i].body = dynamic[i];
     movers[i].dense = world.bodies.info[dynamic[i]].dense;
@@ -227,7 +224,7 @@ std::vector<Mover> movers_of(WorldState& world) {
   return movers;
 }
 
-std::uint32_t mover_of(const std::vector<Mover>& movers, std::uint32_t body) {
+std::uint32_t mover_of(const StepList<Mover>& movers, std::uint32_t body) {
   const auto at =
       std::lower_bound(movers.begin(), movers.end(), body,
                        [](const Mover& m, std::uint32_t wanted) { return m.body < wanted; });
@@ -239,9 +236,9 @@ std::uint32_t mover_of(const std::vector<Mover>& movers, std::uint32_t body) {
 
 struct Follower {
   const WorldState& world;
-  const std::vector<Mover>& movers;
-  bool any_kinematic;                    // in this world
-  std::vector<std::uint32_t> obstacles;  // scratch
+  const StepList<Mover>& movers;
+  bool any_kinematic;  // in this world
+  FastOthers& fast_others;
 
   // The first collider met on a path from `begin` on. `passed` is a body that does not count.
   Hit first_hit(Mover& mover, const Path& path, Num begin, std::uint32_t passed) {
@@ -250,6 +247,7 @@ struct Follower {
     for (const std::uint32_t slot : info.colliders) {
       const ColliderInfo& own = world.colliders.info[slot];
       if (own.component.is_sensor) continue;
+      static thread_local std::vector<std::uint32_t> obstacles;  // kept for its storage only
       obstacles.clear();
       const auto consider = [&](std::uint32_t other) {
         const ColliderInfo& collider = world.colliders.info[other];
@@ -260,7 +258,7 @@ struct Follower {
             !may_meet(world, slot, other))
           return;
         if (dynamic && mover_of(movers, collider.body) != kNone) {
-          mover.fast_others.push_back(other);
+          fast_others.emplace_back(static_cast<std::uint32_t>(&mover - movers.data()), other);
           return;
         }
         obstacles.push_back(other);
@@ -335,7 +333,7 @@ Path path_from(const Mover& m, Num t, PosVec reference) {
   return path;
 }
 
-Num meeting_time(const WorldState& world, const std::vector<Mover>& movers, const FastPair& pair,
+Num meeting_time(const WorldState& world, const StepList<Mover>& movers, const FastPair& pair,
                  Num from) {
   const Mover& a = movers[pair.mover_a];
   const Mover& b = movers[pair.mover_b];
@@ -358,10 +356,10 @@ Num meeting_time(const WorldState& world, const std::vector<Mover>& movers, cons
   return kNever;
 }
 
-std::vector<FastPair> fast_pairs(const WorldState& world, const std::vector<Mover>& movers) {
-  std::vector<FastPair> pairs;
-  for (std::uint32_t m = 0; m < movers.size(); ++m) {
-    for (const std::uint32_t other : movers[m].fast_others) {
+StepList<FastPair> fast_pairs(WorldState& world, const StepList<Mover>& movers) {
+  StepList<FastPair> pairs(&world.memory);
+  for (const FastOthers& chunk : world.fast_others_by_chunk) {
+    for (const auto& [m, other] : chunk) {
       const std::uint32_t n = mover_of(movers, world.colliders.info[other].body);
       for (const std::uint32_t own : world.bodies.info[movers[m].body].colliders) {
         if (world.colliders.info[own].component.is_sensor || !may_meet(world, own, other)) continue;
@@ -382,8 +380,8 @@ std::vector<FastPair> fast_pairs(const WorldState& world, const std::vector<Move
 }
 
 // Meetings in the order of time. Each stops at least one body earlier than before, so they end.
-void meet_one_another(const WorldState& world, std::vector<Mover>& movers) {
-  std::vector<FastPair> pairs = fast_pairs(world, movers);
+void meet_one_another(WorldState& world, StepList<Mover>& movers) {
+  StepList<FastPair> pairs = fast_pairs(world, movers);
   for (FastPair& pair : pairs) pair.time = meeting_time(world, movers, pair, 0);
   for (;;) {
     FastPair* earliest = nullptr;
@@ -480,16 +478,20 @@ void stop_body(WorldState& world, const Mover& mover) {
 }  // namespace
 
 void stop_fast_bodies(WorldState& world) {
-  std::vector<Mover> movers = movers_of(world);
+  StepList<Mover> movers = movers_of(world);
   if (movers.empty()) return;
   const bool any_kinematic =
       std::any_of(world.bodies.info.begin(), world.bodies.info.end(),
                   [](const BodyInfo& b) { return b.alive && b.type == MotionType::Kinematic; });
-  parallel_for(world, static_cast<std::uint32_t>(movers.size()), tolerance::kSweepGrain,
-               [&](std::uint32_t begin, std::uint32_t end) {
-                 Follower follower{world, movers, any_kinematic, {}};
-                 for (std::uint32_t i = begin; i < end; ++i) follower.follow(movers[i]);
-               });
+  const auto count = static_cast<std::uint32_t>(movers.size());
+  const std::uint32_t chunks = count / tolerance::kSweepGrain + 1;
+  std::vector<FastOthers>& found = world.fast_others_by_chunk;
+  if (found.size() < chunks) found.resize(chunks);
+  for (FastOthers& chunk : found) chunk.clear();
+  parallel_for(world, count, tolerance::kSweepGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    Follower follower{world, movers, any_kinematic, found[begin / tolerance::kSweepGrain]};
+    for (std::uint32_t i = begin; i < end; ++i) follower.follow(movers[i]);
+  });
   meet_one_another(world, movers);
   for (const Mover& mover : movers)
     if (mover.stop <= Num(1)) stop_body(world, mover);

@@ -72,18 +72,21 @@ void renew_boxes(WorldState& world, const std::vector<std::uint32_t>& moved) {
 void finalize_bodies(WorldState& world) {
   BodyStore& bodies = world.bodies;
   note_hits(world);
-  std::vector<std::uint8_t> unsound(bodies.awake_end, 0);
+  StepList<std::uint8_t> unsound(bodies.awake_end, 0, &world.memory);
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;
                       ++i)
                    unsound[i] = move_body(world, i) ? 0 : 1;
                });
-  std::vector<std::uint32_t> to_quarantine;
+  StepList<std::uint32_t> to_quarantine(&world.memory);
   std::vector<std::uint32_t>& moved = world.moved;
   moved.clear();
   for (std::uint32_t i = bodies.awake_begin; i < bodies.awake_end; ++i)
-    (unsound[i] != 0 ? to_quarantine : moved).push_back(bodies.slot_of[i]);
+    if (unsound[i] != 0)
+      to_quarantine.push_back(bodies.slot_of[i]);
+    else
+      moved.push_back(bodies.slot_of[i]);
   std::sort(to_quarantine.begin(), to_quarantine.end());
   if (!std::is_sorted(moved.begin(), moved.end())) std::sort(moved.begin(), moved.end());
   for (const std::uint32_t body : to_quarantine) quarantine(world, body);

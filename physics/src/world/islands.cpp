@@ -183,8 +183,8 @@ void sleep_islands(WorldState& world) {
   for (std::uint32_t dense = bodies.awake_begin; dense < bodies.awake_end; ++dense)
     update_rest_time(world, dense);
   // The shortest rest of any member decides for the island.
-  std::vector<std::uint32_t> awake(bodies.slot_of.begin() + bodies.awake_begin,
-                                   bodies.slot_of.begin() + bodies.awake_end);
+  StepList<std::uint32_t> awake(bodies.slot_of.begin() + bodies.awake_begin,
+                                bodies.slot_of.begin() + bodies.awake_end, &world.memory);
   std::erase_if(awake, [&](std::uint32_t body) { return !is_dynamic(world, body); });
   std::sort(awake.begin(), awake.end());
   for (const std::uint32_t body : awake) {
@@ -193,7 +193,7 @@ void sleep_islands(WorldState& world) {
         std::min(bodies.info[root].rest_time, bodies.info[body].rest_time);
     if (root == body) ++world.report.islands;
   }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> resting;  // root, body
+  StepList<std::pair<std::uint32_t, std::uint32_t>> resting(&world.memory);  // root, body
   for (const std::uint32_t body : awake) {
     const std::uint32_t root = find_root(world.parents, body);
     if (bodies.info[root].rest_time >= world.settings.time_to_sleep)

@@ -326,7 +326,7 @@ void spread_depth(WorldState& world) {
   const BodyStore& bodies = world.bodies;
   std::vector<std::uint8_t>& deep = world.overlaps_deeply;
   for (int layer = 0; layer < tolerance::kDeepLayers; ++layer) {
-    const std::vector<std::uint8_t> before = deep;
+    const StepList<std::uint8_t> before(deep.begin(), deep.end(), &world.memory);
     for (const Contact& contact : world.contacts) {
       const Pair& pair = world.pairs[contact.pair];
       const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;

@@ -32,6 +32,7 @@ class StageRunner {
 void run_stages(WorldState& world, double dt) {
   StageRunner stage(world);
   world.stepping = true;
+  world.memory.reset();
   stage(Stage::Plan, [dt](WorldState& w) { plan_step(w, dt); });
   stage(Stage::Broadphase, find_pairs);
   stage(Stage::Narrowphase, collide_pairs);

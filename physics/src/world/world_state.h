@@ -20,6 +20,7 @@
 #include "world/joint_store.h"
 #include "world/ledger.h"
 #include "world/pair_store.h"
+#include "world/step_memory.h"
 #include "world/world_image.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -92,6 +93,9 @@ struct ColorRange {
 };
 
 // How a body goes through the step (solver/plain_bodies.h).
+// Of a flagged body that moved far: its place among those, a collider of another one near its path.
+using FastOthers = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
 enum class BodyWay : std::uint8_t { Other, Held, Free };
 
 struct WorldState {
@@ -121,6 +125,7 @@ struct WorldState {
   StepReport report;
 
   // --- scratch of the running step (kept between steps for its storage) ---
+  StepMemory memory;
   StepFlags flags;
   Real dt = 0, h = 0;                         // [s] step, substep
   Real last_h = 0;                            // [s] substep to which the remembered impulses belong
@@ -150,6 +155,7 @@ struct WorldState {
   std::vector<Contact> new_contacts;
   std::vector<std::uint32_t> bodies_to_wake;
   std::vector<std::vector<std::uint32_t>> fast_by_chunk;  // bodies that moved far
+  std::vector<FastOthers> fast_others_by_chunk;
   std::vector<std::uint32_t> query_list;  // collider slots whose pairs must be sought
   std::vector<std::uint32_t> touched;     // body slots that somebody acted on since the last step
 

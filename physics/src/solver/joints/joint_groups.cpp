@@ -48,12 +48,14 @@ void list_active(WorldState& world) {
 class Groups {
  public:
   explicit Groups(WorldState& world)
-      : world_(world), scratch_(*world.joints.scratch), parents_(scratch_.group) {
+      : world_(world),
+        scratch_(*world.joints.scratch),
+        parents_(scratch_.group),
+        loops_(world.bodies.awake_end, 0, &world.memory),
+        locked_(world.bodies.awake_end, 0, &world.memory),
+        anchors_(world.bodies.awake_end, 0, &world.memory) {
     parents_.resize(world.bodies.awake_end);
     std::iota(parents_.begin(), parents_.end(), 0u);
-    loops_.assign(parents_.size(), 0);
-    locked_.assign(parents_.size(), 0);
-    anchors_.assign(parents_.size(), 0);
   }
 
   void find() {
@@ -108,20 +110,27 @@ class Groups {
   WorldState& world_;
   JointScratch& scratch_;
   std::vector<std::uint32_t>& parents_;
-  std::vector<std::uint8_t> loops_, locked_, anchors_;
+  StepList<std::uint8_t> loops_, locked_, anchors_;
 };
 
 // Walks every group breadth first, then numbers its joints from the last one found to the first.
 class Order {
  public:
-  explicit Order(WorldState& world) : scratch_(*world.joints.scratch), h_(world.h) {
+  explicit Order(WorldState& world)
+      : scratch_(*world.joints.scratch),
+        h_(world.h),
+        begin_(&world.memory),
+        joints_(&world.memory),
+        found_(&world.memory),
+        place_(&world.memory),
+        columns_(&world.memory) {
     const std::size_t bodies = scratch_.group.size(), count = scratch_.members.size();
     begin_.assign(bodies + 1, 0);
     for (const JointMembers& members : scratch_.members)
       for (int k = 0; k < members.count; ++k) ++begin_[members.body[k] + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     joints_.resize(begin_.back());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    StepList<std::uint32_t> next(begin_.begin(), begin_.end() - 1, &world.memory);
     for (std::uint32_t i = 0; i < count; ++i)
       for (int k = 0; k < scratch_.members[i].count; ++k)
         joints_[next[scratch_.members[i].body[k]]++] = i;
@@ -160,7 +169,7 @@ class Order {
     }
     system.column.assign(1, 0);
     system.entry_row.clear();
-    for (const std::vector<std::uint32_t>& column : columns_) {
+    for (const StepList<std::uint32_t>& column : columns_) {
       system.entry_row.insert(system.entry_row.end(), column.begin(), column.end());
       system.column.push_back(static_cast<std::uint32_t>(system.entry_row.size()));
     }
@@ -191,7 +200,7 @@ class Order {
     std::uint64_t work = 0;
     const std::uint64_t most = joint_tolerance::kMostWork * (end - begin);
     for (std::uint32_t p = begin; p < end; ++p) {
-      std::vector<std::uint32_t>& column = columns_[p];
+      StepList<std::uint32_t>& column = columns_[p];
       for_neighbours(scratch_.order[p], [&](std::uint32_t j) {
         if (place_[j] > p) column.push_back(place_[j]);
       });
@@ -200,7 +209,7 @@ class Order {
       work += column.size() * column.size();
       if (work > most) return false;
       if (column.empty()) continue;
-      std::vector<std::uint32_t>& next = columns_[column.front()];
+      StepList<std::uint32_t>& next = columns_[column.front()];
       next.insert(next.end(), column.begin() + 1, column.end());
     }
     return true;
@@ -208,10 +217,10 @@ class Order {
 
   JointScratch& scratch_;
   Real h_;
-  std::vector<std::uint32_t> begin_, joints_;  // joints at each body
-  std::vector<std::uint8_t> found_;
-  std::vector<std::uint32_t> place_;  // in the order, per active joint
-  std::vector<std::vector<std::uint32_t>> columns_;
+  StepList<std::uint32_t> begin_, joints_;  // joints at each body
+  StepList<std::uint8_t> found_;
+  StepList<std::uint32_t> place_;  // in the order, per active joint
+  StepList<StepList<std::uint32_t>> columns_;
 };
 
 // Greedy. Whole groups share no body with anything and have the first colour; pieces of wide groups
@@ -220,9 +229,10 @@ void color_pieces(WorldState& world) {
   JointScratch& scratch = *world.joints.scratch;
   std::vector<JointPiece>& pieces = scratch.system.pieces;
   scratch.colors.clear();
-  std::vector<std::uint64_t> mask(scratch.group.size(), 0);
-  std::vector<std::pair<int, JointPiece>> colored;
-  for (const JointPiece& piece : pieces) {
+  StepList<std::uint64_t> mask(scratch.group.size(), 0, &world.memory);
+  StepList<std::pair<int, std::uint32_t>> colored(&world.memory);  // colour, piece
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    const JointPiece& piece = pieces[i];
     int color = 0;
     if (!piece.whole) {
       const JointMembers& members = scratch.members[scratch.order[piece.begin]];
@@ -232,13 +242,13 @@ void color_pieces(WorldState& world) {
       if (color < kJointColors - 1)
         for (int k = 0; k < members.count; ++k) mask[members.body[k]] |= std::uint64_t{1} << color;
     }
-    colored.emplace_back(color, piece);
+    colored.emplace_back(color, i);
   }
-  std::stable_sort(colored.begin(), colored.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(colored.begin(), colored.end());
+  const StepList<JointPiece> found(pieces.begin(), pieces.end(), &world.memory);
   scratch.has_parts = false;
   for (std::uint32_t i = 0; i < colored.size(); ++i) {
-    pieces[i] = colored[i].second;
+    pieces[i] = found[colored[i].second];
     scratch.has_parts = scratch.has_parts || !pieces[i].whole;
     // Beyond the last colour: one after the other.
     const bool same = i > 0 && colored[i - 1].first == colored[i].first;
