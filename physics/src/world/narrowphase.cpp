@@ -4,6 +4,7 @@
 
 #include "collision/collide_parts.h"
 #include "world/body_sweep.h"
+#include "world/inner_edges.h"
 #include "world/one_way.h"
 #include "world/recycling.h"
 #include "world/tolerances.h"
@@ -364,6 +365,7 @@ void collide_pairs(WorldState& world) {
     collide_all(world);
   }
   take_findings(world);
+  drop_hidden_contacts(world);
   report_contacts(world);
   spread_depth(world);
 }
