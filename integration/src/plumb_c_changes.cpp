@@ -26,6 +26,7 @@ plumb_material plumb_material_default(void) {
   out.restitution = static_cast<double>(material.restitution);
   out.friction_rule = static_cast<int32_t>(material.friction_rule);
   out.restitution_rule = static_cast<int32_t>(material.restitution_rule);
+  out.grain_friction = static_cast<double>(material.grain_friction);
   return out;
 }
 
@@ -193,6 +194,9 @@ plumb_status plumb_collider_set_material(plumb_world* world, plumb_collider coll
     wanted.friction_rule = static_cast<plumb::CombineRule>(material->friction_rule);
     wanted.restitution_rule = static_cast<plumb::CombineRule>(material->restitution_rule);
     wanted.kind = material->kind;
+    wanted.grain = vec3(material->grain);
+    wanted.grain_friction = static_cast<Real>(material->grain_friction);
+    wanted.adhesion = static_cast<Real>(material->adhesion);
     return pass_on(world, world->world.set_material(ColliderId::from_value(collider), wanted));
   });
 }
@@ -212,6 +216,9 @@ plumb_status plumb_collider_get_material(plumb_world* world, plumb_collider coll
     out->friction_rule = static_cast<int32_t>(material.friction_rule);
     out->restitution_rule = static_cast<int32_t>(material.restitution_rule);
     out->kind = material.kind;
+    for (int i = 0; i < 3; ++i) out->grain[i] = static_cast<double>(material.grain[i]);
+    out->grain_friction = static_cast<double>(material.grain_friction);
+    out->adhesion = static_cast<double>(material.adhesion);
     return PLUMB_OK;
   });
 }

@@ -7,7 +7,7 @@
 namespace plumb::rrd::schema {
 
 // Raised when a reader of the old schema would misread the new one.
-inline constexpr std::uint32_t kVersion = 2;
+inline constexpr std::uint32_t kVersion = 3;
 
 inline constexpr const char* kPrefix = "plumb/";
 

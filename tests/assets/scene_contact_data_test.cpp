@@ -14,7 +14,8 @@ using assets::parse_scene;
 const char* const kScene = R"({
   "plumb_scene": 1,
   "materials": {
-    "rubber": { "rolling_friction": 0.25, "torsional_friction": 0.125, "kind": 4294967295 },
+    "rubber": { "rolling_friction": 0.25, "torsional_friction": 0.125, "kind": 4294967295,
+                "grain": [0, 0, 2], "grain_friction": 0.375, "adhesion": 12.5 },
     "ice": { "kind": 2 }
   },
   "material_pairs": [
@@ -52,6 +53,9 @@ TEST(SceneContactData, BuildsWhatIsWritten) {
   EXPECT_EQ(running.material.rolling_friction, Real(0.25));
   EXPECT_EQ(running.material.torsional_friction, Real(0.125));
   EXPECT_EQ(running.material.kind, 4294967295u);
+  EXPECT_EQ(running.material.grain, Vec3(0, 0, 2));
+  EXPECT_EQ(running.material.grain_friction, Real(0.375));
+  EXPECT_EQ(running.material.adhesion, Real(12.5));
   EXPECT_EQ(running.filter.group, 0);
   const Collider shelf = world.collider(world.colliders_of(belt)[1]);
   EXPECT_EQ(shelf.one_way, Vec3(0, 1, 0));  // of any length

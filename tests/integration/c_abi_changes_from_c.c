@@ -150,12 +150,17 @@ const char* c_abi_set_contact_data(void) {
   REQUIRE(plumb_collider_set_surface_velocity(world, c[4], belt, NULL) == PLUMB_OK);
   m.kind = 3;
   m.rolling_friction = 0.125;
+  m.grain[2] = 1;
+  m.grain_friction = 0.5;
+  m.adhesion = 8;
   m.friction_rule = PLUMB_MULTIPLY;
   REQUIRE(plumb_collider_set_material(world, c[1], &m) == PLUMB_OK);
   memset(&m, 0, sizeof m);
   REQUIRE(plumb_collider_get_material(world, c[1], &m) == PLUMB_OK);
-  REQUIRE(m.kind == 3 && m.rolling_friction == 0.125 && m.friction_rule == PLUMB_MULTIPLY);
+  REQUIRE(m.kind == 3 && m.rolling_friction == 0.125 && m.grain[2] == 1 && m.grain_friction == 0.5 &&
+          m.adhesion == 8 && m.friction_rule == PLUMB_MULTIPLY);
   m = plumb_material_default();
+  REQUIRE(m.grain_friction == 1 && m.adhesion == 0);
   m.kind = 4;
   REQUIRE(plumb_collider_set_material(world, c[4], &m) == PLUMB_OK);
   REQUIRE(plumb_set_material_pair(world, 4, 3, &pair) == PLUMB_OK);

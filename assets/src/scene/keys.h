@@ -22,8 +22,8 @@ inline constexpr std::string_view kSettings[] = {
     "gravity",        "substeps",      "contact_frequency", "contact_damping_ratio", "rotation",
     "contact_solver", "warm_starting", "sleeping",          "time_to_sleep"};
 inline constexpr std::string_view kMaterial[] = {
-    "friction",         "restitution",        "friction_rule", "restitution_rule",
-    "rolling_friction", "torsional_friction", "kind"};
+    "friction",           "restitution", "friction_rule", "restitution_rule", "rolling_friction",
+    "torsional_friction", "kind",        "grain",         "grain_friction",   "adhesion"};
 inline constexpr std::string_view kMaterialPair[] = {"kinds", "friction", "restitution",
                                                      "rolling_friction", "torsional_friction"};
 inline constexpr std::string_view kExcludedPair[] = {"body_a", "body_b", "collider_a",

@@ -63,6 +63,9 @@ void read_material(const JsonNode& node, const std::string& what, Material& mate
   in.number("rolling_friction", material.rolling_friction, kNotNegative);
   in.number("torsional_friction", material.torsional_friction, kNotNegative);
   in.integer("kind", material.kind, 0u, kLastKind);
+  in.vector("grain", material.grain);
+  in.number("grain_friction", material.grain_friction, {0, 1, false});
+  in.number("adhesion", material.adhesion, kNotNegative);
 }
 
 bool read_orientation(const ObjectReader& parent, Eigen::Quaterniond& orientation) {

@@ -33,7 +33,10 @@ Json json_of(const Material& material) {
           {"restitution_rule", word(scene::kCombineRules, material.restitution_rule)},
           {"rolling_friction", tidy(material.rolling_friction)},
           {"torsional_friction", tidy(material.torsional_friction)},
-          {"kind", material.kind}};
+          {"kind", material.kind},
+          {"grain", json_of(material.grain)},
+          {"grain_friction", tidy(material.grain_friction)},
+          {"adhesion", tidy(material.adhesion)}};
 }
 
 Json json_of(const SceneMaterialPair& pair) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "plumb/math.h"
 #include "plumb/precision.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -20,6 +21,15 @@ struct Material {
   // most this times that force. The larger of two colliders' values counts.
   Real rolling_friction = Real(0);    // [m] >= 0, finite; about axes in the contact plane
   Real torsional_friction = Real(0);  // [m] >= 0, finite; about the contact normal
+  // Friction with a grain, as of skates, skis, rails or brushed surfaces: of `friction` as
+  // combined, all acts across the grain and this share along it, on the ellipse between. Of two
+  // colliders that have one, the smaller share counts, with its grain.
+  Vec3 grain = Vec3::Zero();      // axis in the collider's frame, of any length; zero: no grain
+  Real grain_friction = Real(1);  // [-] 0..1
+  // Glue, mud, suction: the pull that a touching pair withstands before it parts. It acts up to a
+  // gap of a few millimetres, and friction feels it as it feels a load; contact impulses are told
+  // with it, as the surfaces feel them. The larger of two counts.
+  Real adhesion = Real(0);  // [N] >= 0, finite
   // Names what the surface is made of, for the world's table of pairs; 0: nothing in particular.
   std::uint32_t kind = 0;
 };

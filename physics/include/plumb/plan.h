@@ -25,6 +25,8 @@ enum class PlanItem : unsigned char {
   RollingFriction,
   SurfaceVelocity,
   OneWay,
+  AnisotropicFriction,
+  Adhesion,
   AccurateContacts,  // ContactSolver::Newton for some islands
   // Effects, in the order of EffectKind (plumb/effects.h).
   PointGravity,

@@ -210,13 +210,36 @@ inline void solve_normal(Row& row, const SeparationChange<T>& change, T inverse_
 // tangential directions can be solved together [-].
 inline constexpr Real kSingular = Real(1e-6);
 
+// The friction cone is round: all directions alike.
+struct RoundCone {
+  template <class T>
+  static void enter(T&, T&, T&, T&) {}
+  template <class T>
+  static void leave(T&) {}
+};
+// The friction cone is an ellipse, `along` times as wide along t1 as along t2. In axes scaled by
+// that, impulses by 1/along and velocities by along, it is round, power stays power, and the
+// impulse that takes most energy from the slip is again the one that opposes it.
+template <class T>
+struct GrainCone {
+  T along;
+  void enter(T& v1, T& k11, T& k12, T& f1) const {
+    v1 *= along;
+    k11 *= along * along;
+    k12 *= along;
+    f1 = along > T(0) ? f1 / along : T(0);
+  }
+  void leave(T& f1) const { f1 *= along; }
+};
+
 // Coulomb friction on the true circular cone, point by point: if the impulse that stops the slip
 // lies inside the disc of radius mu * normal impulse it is taken (stick). Otherwise a projected
 // step with the larger eigenvalue of the response follows, whose fixed point opposes the slip
 // exactly, in every direction alike. Returns the normal impulse that slides in `sliding`, and all
 // of it in `load`.
-template <class Row, class T>
-inline void solve_friction(Row& row, RowVelocities<T>& u, T& load, T& sliding) {
+template <class Row, class T, class Cone = RoundCone>
+inline void solve_friction(Row& row, RowVelocities<T>& u, T& load, T& sliding,
+                           const Cone& cone = {}) {
   const Vector3<T> v = relative_velocity(u);
   T x = dot(row.t1, v) + row.drive.x, y = dot(row.t2, v) + row.drive.y,
     z = dot(row.n, u.wb - u.wa) + row.drive.z;
@@ -226,21 +249,23 @@ inline void solve_friction(Row& row, RowVelocities<T>& u, T& load, T& sliding) {
   for (int i = 0; i < row.count; ++i) {
     auto& point = row.points[i];
     const T limit = row.friction * point.impulse;
-    const T v1 = x - point.b * z, v2 = y + point.a * z;
-    const T half_trace = T(0.5) * (point.k11 + point.k22);
-    const T half_difference = T(0.5) * (point.k11 - point.k22);
-    const T k = half_trace + root_of(half_difference * half_difference + point.k12 * point.k12);
-    const T determinant = point.k11 * point.k22 - point.k12 * point.k12;
+    T v1 = x - point.b * z, k11 = point.k11, k12 = point.k12, start1 = point.friction1;
+    const T v2 = y + point.a * z, k22 = point.k22;
+    cone.enter(v1, k11, k12, start1);
+    const T half_trace = T(0.5) * (k11 + k22);
+    const T half_difference = T(0.5) * (k11 - k22);
+    const T k = half_trace + root_of(half_difference * half_difference + k12 * k12);
+    const T determinant = k11 * k22 - k12 * k12;
     const MaskOf<T> acts = (limit > T(0)) & (k > T(0));
     // Motion locks may leave one direction only: there is nothing to stop in the other.
     const MaskOf<T> regular = determinant > T(kSingular) * k * k;
-    T f1 = point.friction1 - (point.k22 * v1 - point.k12 * v2) / determinant;
-    T f2 = point.friction2 - (point.k11 * v2 - point.k12 * v1) / determinant;
+    T f1 = start1 - (k22 * v1 - k12 * v2) / determinant;
+    T f2 = point.friction2 - (k11 * v2 - k12 * v1) / determinant;
     T size = root_of(f1 * f1 + f2 * f2);
     T share = size / limit;
     const MaskOf<T> slides = negate(regular) | (size > limit);
     if (any(slides & acts)) {
-      T s1 = point.friction1 - v1 / k, s2 = point.friction2 - v2 / k;
+      T s1 = start1 - v1 / k, s2 = point.friction2 - v2 / k;
       size = root_of(s1 * s1 + s2 * s2);
       const T scale = select(size > limit, limit / size, T(1));
       s1 = s1 * scale;
@@ -255,6 +280,7 @@ inline void solve_friction(Row& row, RowVelocities<T>& u, T& load, T& sliding) {
     share = select(acts, share, T(1));
     load += point.impulse;
     sliding += share * point.impulse;
+    cone.leave(f1);
     const T d1 = f1 - point.friction1, d2 = f2 - point.friction2;
     point.friction1 = f1;
     point.friction2 = f2;

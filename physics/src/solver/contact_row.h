@@ -116,8 +116,10 @@ struct ContactRow : RowNumbers<T, 4> {
   Vector3<T> between;  // [m] from A's centre of mass to B's
   bool both_dynamic = false;
   T restitution = T(0);
-  std::uint32_t turning = kNoTurning;  // its row of rolling and torsional friction, if any
-  std::uint32_t turned = kNotTurned;   // its place among the rows told anew, if it is one
+  // Its row of rolling and torsional friction or of friction with a grain, if any.
+  std::uint32_t turning = kNoTurning;
+  T along = T(1);                     // [-] friction along t1, the grain, over that along t2
+  std::uint32_t turned = kNotTurned;  // its place among the rows told anew, if it is one
   T push_speed = T(0);  // [m/s] limit of the velocity that works off overlap, of most substeps
 
   bool exact_spheres = false;            // both are spheres about their centres of mass

@@ -229,6 +229,11 @@ void bounce(Impacts& impacts, ContactRow<Real>& row, const Meeting& meeting) {
   const Vec n = meeting.normal;
   Vec t1, t2;
   tangent_frame(n, t1, t2);
+  if (row.along != Real(1)) {  // in axes in which the cone is round (contact_kernel.h)
+    const Vec across = cross(n, row.t1);
+    t2 = (Real(1) / length(across)) * across;
+    t1 = row.along * cross(t2, n);
+  }
   Side A = side_at(world, row, true, n, t), B = side_at(world, row, false, n, t);
   const Vec va_before = A.v, vb_before = B.v;
 

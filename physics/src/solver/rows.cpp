@@ -167,6 +167,28 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                         inverse_rotate(collider.in_body.q, normal));
 }
 
+// Turns the contact's axes so that t1 lies along the grain. A grain that stands on the contact
+// plane leaves friction round.
+void align_with_grain(const WorldState& world, const Pair& pair, ContactRow<Real>& row) {
+  constexpr Real kUpright = Real(1e-2);  // [-] sine of the angle to the normal
+  const ColliderInfo* grained = &world.colliders.info[pair.collider_a()];
+  const ColliderInfo* other = &world.colliders.info[pair.collider_b()];
+  const auto share = [](const ColliderInfo& c) {
+    const Material& m = c.component.material;
+    return m.grain.squaredNorm() > Real(0) ? m.grain_friction : Real(1);
+  };
+  if (share(*other) < share(*grained)) grained = other;
+  const Material& material = grained->component.material;
+  const Rotation& q_body = world.bodies.pose[world.bodies.info[grained->body].dense].q;
+  const Vec grain = rotate(q_body, rotate(grained->in_body.q, to_inner(material.grain)));
+  const Vec flat = grain - dot(grain, row.n) * row.n;
+  const Real size = length(flat);
+  if (!(size > kUpright * length(grain))) return;
+  row.t1 = (Real(1) / size) * flat;
+  row.t2 = cross(row.n, row.t1);
+  row.along = material.grain_friction;
+}
+
 void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t contact_index) {
   const WorldState& world = context.world;
   const BodyStore& bodies = world.bodies;
@@ -181,6 +203,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.count = contact.manifold.count;
   row.n = contact.manifold.normal;
   tangent_frame(row.n, row.t1, row.t2);
+  if (pair.grained) align_with_grain(world, pair, row);
 
   Vec center{0, 0, 0};
   for (int i = 0; i < row.count; ++i) center += contact.manifold.points[i].position;
@@ -269,13 +292,16 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   mark_loaded_points(row);
 }
 
-// Gives the rows of pairs that resist turning their own; one test a step where nothing does.
+// Gives the rows of pairs that resist turning or have a grain their own; one test a step where
+// nothing does.
 void build_turning_rows(WorldState& world) {
   world.turning_rows.clear();
-  if (world.counts.turning == 0 && !world.contact_data.materials.resists_turning()) return;
+  if (world.counts.turning == 0 && world.counts.grained == 0 &&
+      !world.contact_data.materials.resists_turning())
+    return;
   for (ContactRow<Real>& row : world.rows) {
     const Pair& pair = world.pairs[world.contacts[row.contact].pair];
-    if (!(pair.rolling > Real(0)) && !(pair.torsional > Real(0))) continue;
+    if (!(pair.rolling > Real(0)) && !(pair.torsional > Real(0)) && row.along == Real(1)) continue;
     row.turning = static_cast<std::uint32_t>(world.turning_rows.size());
     world.turning_rows.push_back(make_turning_row(row, pair.rolling, pair.torsional));
   }
@@ -328,6 +354,7 @@ void build_rows(WorldState& world) {
   });
   build_turning_rows(world);
   find_spinning_rows(world);
+  find_adhesive_rows(world);
   world.bouncing_rows.clear();
   for (std::uint32_t i = 0; i < count; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);

@@ -20,6 +20,7 @@
 #include "solver/newton/newton_solver.h"
 #include "solver/plain_bodies.h"
 #include "solver/row_end.h"
+#include "solver/row_velocities.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "world/ledger_charges.h"
@@ -65,26 +66,6 @@ BlockPass pass_over_blocks(WorldState& world) {
   pass.contacts_changed = world.contacts_changed.data();
   pass.inverse_h = Real(1) / world.h;
   return pass;
-}
-
-RowVelocities<Real> read_velocities(const WorldState& world, const ContactRow<Real>& row) {
-  const BodyVelocity& a = world.bodies.velocity[row.body_a];
-  const BodyVelocity& b = world.bodies.velocity[row.body_b];
-  RowVelocities<Real> u{a.v, a.w, b.v, b.w, {}, {}};
-  place_arms(row, delta_of_a(world, row).dp, delta_of_b(world, row).dp, u);
-  return u;
-}
-// Bodies that are not dynamic may stand in many rows of a colour; they are never written.
-void write_velocities(WorldState& world, const ContactRow<Real>& row,
-                      const RowVelocities<Real>& u) {
-  if (world.substep[row.body_a].constrained) {
-    world.bodies.velocity[row.body_a].v = u.va;
-    world.bodies.velocity[row.body_a].w = u.wa;
-  }
-  if (world.substep[row.body_b].constrained) {
-    world.bodies.velocity[row.body_b].v = u.vb;
-    world.bodies.velocity[row.body_b].w = u.wb;
-  }
 }
 
 // Enters what a row does, part by part, when the ledger is kept.
@@ -147,13 +128,19 @@ void finish_body(WorldState& world, std::uint32_t i) {
         weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost));
 }
 
-// Rolling and torsional friction of a row that has it. Returns whether it turns nevertheless.
-bool resist_turning(WorldState& world, const ContactRow<Real>& row, bool first_pass,
-                    RowVelocities<Real>& u) {
-  if (row.turning == ContactRow<Real>::kNoTurning) return false;
+// Rolling and torsional friction of a row that has it, then friction, with a grain if it has one.
+// Returns whether the contact turns nevertheless.
+bool rub(WorldState& world, ContactRow<Real>& row, bool first_pass, RowVelocities<Real>& u,
+         Real& load, Real& sliding) {
+  if (row.turning == ContactRow<Real>::kNoTurning) {
+    solve_friction(row, u, load, sliding);
+    return false;
+  }
   TurningRow<Real>& turning = world.turning_rows[row.turning];
   if (first_pass) turning.impulse1 = turning.impulse2 = turning.impulse3 = Real(0);
-  return solve_turning(row, turning, u);
+  const bool turns = solve_turning(row, turning, u);
+  solve_friction(row, u, load, sliding, GrainCone<Real>{row.along});
+  return turns;
 }
 
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
@@ -164,8 +151,7 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
     RowCharge charged(world, row, world.diagnostics.ledger);
     solve_normal(row, change, inverse_h, false, u);
     charged.as(&EnergyLedger::normal, u);
-    const bool turns = resist_turning(world, row, false, u);
-    solve_friction(row, u, load, sliding);
+    const bool turns = rub(world, row, false, u, load, sliding);
     charged.as(&EnergyLedger::friction, u);
     if (turns) sliding = load;  // its speeds ramp as those of what slides
     write_velocities(world, row, u);
@@ -266,6 +252,7 @@ void run_substeps(WorldState& world) {
     if (!world.turned_rows.empty()) renew_turned_rows(world);
     if (!world.bouncing_rows.empty()) renew_bouncing_rows(world);
     if (ledger) charge_kick(world);
+    if (!world.adhesive_rows.empty()) pull_together(world);
     if (joints) fly_joint_groups(world);
     if (ledger) charge_joint_flight(world);
     if (joints) warm_start_joints(world);
@@ -290,8 +277,7 @@ void run_substeps(WorldState& world) {
       RowCharge charged(world, row, ledger);
       solve_normal(row, change, pass.inverse_h, true, u);
       charged.as(&EnergyLedger::normal, u);
-      resist_turning(world, row, true, u);
-      solve_friction(row, u, load, sliding);
+      rub(world, row, true, u, load, sliding);
       charged.as(&EnergyLedger::friction, u);
       write_velocities(world, row, u);
     });

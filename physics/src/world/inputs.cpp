@@ -94,6 +94,8 @@ void append(std::vector<double>& out, const Material& m) {
              {as_number(m.friction), as_number(m.restitution), static_cast<double>(m.friction_rule),
               static_cast<double>(m.restitution_rule), as_number(m.rolling_friction),
               as_number(m.torsional_friction), static_cast<double>(m.kind)});
+  append(out, m.grain);
+  append_all(out, {as_number(m.grain_friction), as_number(m.adhesion)});
 }
 void append(std::vector<double>& out, const Collider& collider) {
   append_shape(out, collider.shape);
@@ -210,6 +212,9 @@ Material NumberReader::material() {
   m.rolling_friction = real();
   m.torsional_friction = real();
   m.kind = word();
+  m.grain = vector();
+  m.grain_friction = real();
+  m.adhesion = real();
   return m;
 }
 Collider NumberReader::collider() {

@@ -31,6 +31,7 @@ bool filters_meet(const Filter& a, const Filter& b) {
 }
 
 bool runs(const Collider& collider) { return collider.surface_velocity != SurfaceVelocity{}; }
+bool has_grain(const Material& m) { return m.grain_friction < 1 && m.grain.squaredNorm() > 0; }
 bool is_one_way(const Collider& collider) { return collider.one_way.squaredNorm() > 0; }
 
 // The combined numbers of two materials; the table of pairs has the last word.
@@ -79,6 +80,10 @@ Pair make_pair(const WorldState& world, std::uint64_t key) {
   pair.slop = tolerance::kSlopFraction * std::min(a.thickness, b.thickness);
   pair.relative_to_b = world.bodies.info[a.body].type != MotionType::Dynamic;
   pair.driven = !pair.sensor && (runs(a.component) || runs(b.component));
+  pair.grained =
+      !pair.sensor && (has_grain(a.component.material) || has_grain(b.component.material));
+  if (!pair.sensor)
+    pair.adhesion = std::max(a.component.material.adhesion, b.component.material.adhesion);
   pair.one_way = !pair.sensor && (is_one_way(a.component) || is_one_way(b.component));
   return pair;
 }
@@ -99,6 +104,8 @@ void count_collider(SceneCounts& counts, const Collider& collider, std::uint32_t
   const Material& m = collider.material;
   if (m.restitution > 0) counts.restitution += change;
   if (m.rolling_friction > 0 || m.torsional_friction > 0) counts.turning += change;
+  if (has_grain(m)) counts.grained += change;
+  if (m.adhesion > 0) counts.adhesive += change;
   if (runs(collider)) counts.driven += change;
   if (is_one_way(collider)) counts.one_way += change;
 }

@@ -37,8 +37,10 @@ struct Pair {                            // 64 bytes in f32
   bool relative_to_b = false;  // positions of its contacts are seen from B's centre, else from A's
   bool driven = false;         // the surface of one of them runs
   bool one_way = false;        // one of them is solid from one side only
+  bool grained = false;        // one of them has less friction along a grain
   Passage passage = Passage::Apart;
   SeparatingFace apart;  // where the narrowphase looks first; no result depends on it
+  Real adhesion = 0;     // combined [N]
 
   [[nodiscard]] std::uint32_t collider_a() const { return static_cast<std::uint32_t>(key >> 32); }
   [[nodiscard]] std::uint32_t collider_b() const {

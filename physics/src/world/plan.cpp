@@ -48,6 +48,10 @@ const char* name_of(PlanItem item) {
       return "surface velocity";
     case PlanItem::OneWay:
       return "one-way colliders";
+    case PlanItem::AnisotropicFriction:
+      return "anisotropic friction";
+    case PlanItem::Adhesion:
+      return "adhesion";
     case PlanItem::AccurateContacts:
       return "accurate contacts";
     default:
@@ -254,6 +258,11 @@ StepPlan PhysicsWorld::plan() const {
          std::to_string(counts.driven) + " colliders have a surface that runs");
   decide(PlanItem::OneWay, counts.one_way > 0,
          std::to_string(counts.one_way) + " colliders are solid from one side only");
+  decide(PlanItem::AnisotropicFriction, counts.grained > 0,
+         std::to_string(counts.grained) + " colliders have a grain" +
+             (counts.grained > 0 ? "; what touches them is left to soft steps" : ""));
+  decide(PlanItem::Adhesion, counts.adhesive > 0,
+         std::to_string(counts.adhesive) + " colliders hold on to what they touch");
   const detail::AccurateChoice accurate = detail::accurate_choice(world);
   decide(PlanItem::AccurateContacts, accurate.active, accurate.reason);
   for (std::size_t kind = 0; kind < kEffectKindCount; ++kind) {

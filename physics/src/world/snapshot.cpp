@@ -79,6 +79,7 @@ void visit_collider(Table& t, ColliderInfo& c, ShapeNumbers& shape, WorldAabb& b
   t("orientation", p.orientation.x(), p.orientation.y(), p.orientation.z(), p.orientation.w());
   Material& m = c.component.material;
   t("surface", m.friction, m.restitution, m.rolling_friction, m.torsional_friction);
+  t("surface_grain", m.grain.x(), m.grain.y(), m.grain.z(), m.grain_friction, m.adhesion);
   t("surface_rules", m.friction_rule, m.restitution_rule);
   t("surface_kind", m.kind);
   SurfaceVelocity& s = c.component.surface_velocity;

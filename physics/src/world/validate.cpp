@@ -72,6 +72,11 @@ Status check_material_pair(const MaterialPair& values) {
 Status check_material(const Material& m) {
   if (m.friction_rule > CombineRule::Multiply || m.restitution_rule > CombineRule::Multiply)
     return {StatusCode::OutOfRange, "the combine rule is none of its values"};
+  if (!all_finite(m.grain)) return {StatusCode::NotFinite, "the grain is not finite"};
+  if (!(m.grain_friction >= 0) || m.grain_friction > 1)
+    return {StatusCode::OutOfRange, "the friction along the grain must lie in 0..1"};
+  if (!std::isfinite(m.adhesion) || m.adhesion < 0)
+    return {StatusCode::OutOfRange, "adhesion must be finite and not negative [N]"};
   return check_surface(m.friction, m.restitution, m.rolling_friction, m.torsional_friction);
 }
 

@@ -9,6 +9,7 @@
 #include "effects/effect_store.h"
 #include "math/eigen_bridge.h"
 #include "plumb/world.h"
+#include "solver/adhesion.h"
 #include "solver/contact_blocks.h"
 #include "solver/contact_row.h"
 #include "solver/surface_drive.h"
@@ -76,6 +77,8 @@ struct SceneCounts {
   std::uint32_t turning = 0;      // ... with rolling or torsional friction
   std::uint32_t driven = 0;       // ... whose surface runs
   std::uint32_t one_way = 0;      // ... that are solid from one side only
+  std::uint32_t grained = 0;      // ... with less friction along a grain
+  std::uint32_t adhesive = 0;     // ... with adhesion
 };
 
 // What the narrowphase found in one pair, before anything is changed.
@@ -138,6 +141,7 @@ struct WorldState {
   std::vector<std::uint32_t> bouncing_rows;
   std::vector<SpinningRow> spinning_rows;
   std::vector<TurnedRow> turned_rows;
+  std::vector<AdhesiveRow> adhesive_rows;
   std::shared_ptr<newton::Solver> newton;      // null until a step calls for it
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
   std::vector<BodyDelta> delta;                // per dense index

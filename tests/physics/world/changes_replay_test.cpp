@@ -96,6 +96,9 @@ void disturb(PhysicsWorld& world, const Scene& scene, int step) {
   Material surface = material(0.1 * (k % 8), 0.15 * (k % 4));
   surface.rolling_friction = real(0.01 * (k % 3));
   surface.kind = static_cast<std::uint32_t>(k % 3);
+  surface.grain = vec(k % 2, 0, 1);
+  surface.grain_friction = real(0.25 * (k % 5));
+  surface.adhesion = real(20 * (k % 3));
   must(world.set_material(collider(9 * k), surface));
   must(world.set_density(collider(2 * k + 5), 400 + 300 * (k % 4)));
   must(world.set_sensor(collider(6 * k + 1), k % 4 == 1));

@@ -52,6 +52,9 @@ Scene build(PhysicsWorld& world) {
     collider.material.kind = static_cast<std::uint32_t>(i % 4);
     collider.material.rolling_friction = real(i % 2 == 0 ? 0.01 : 0);
     collider.material.torsional_friction = real(0.005);
+    if (i % 4 == 1) collider.material.grain = vec(1, 0, 1);
+    collider.material.grain_friction = real(0.2);
+    collider.material.adhesion = real(i % 6 == 3 ? 50 : 0);
     collider.filter.group = i % 7 == 0 ? -2 : i % 11 == 0 ? 5 : 0;
     RigidBody body = moving(at(0.9 * (i % 6) - 2.2, 0.5 + 0.45 * (i / 12), 0.9 * (i / 6 % 6) - 2),
                             vec(0.3 * (i % 4), 4 + i % 9, 0.1 * i), vec(i % 3, 1, 0));

@@ -107,6 +107,9 @@ typedef struct plumb_material {
   int32_t friction_rule;     /* plumb_combine_rule */
   int32_t restitution_rule;  /* plumb_combine_rule */
   uint32_t kind;             /* for plumb_set_material_pair; 0: nothing in particular */
+  double grain[3];           /* axis in the collider's frame; zeros: no grain */
+  double grain_friction;     /* [-] 0..1, friction along the grain over that across it */
+  double adhesion;           /* [N] >= 0, pull that a touching pair withstands */
 } plumb_material;
 
 /* The values of a plumb_material_pair that count, to be added up. */

@@ -118,6 +118,18 @@ void leave_uncalled_islands(const WorldState& world, Solver& solver) {
   }
 }
 
+// The laws of the accurate solver have round cones only.
+void leave_grained_islands(const WorldState& world, Solver& solver) {
+  for (const Pair& pair : world.pairs) {
+    if (!pair.grained || pair.contact_count == 0) continue;
+    for (const std::uint32_t body : {pair.body_a, pair.body_b}) {
+      const std::uint32_t dense = world.bodies.info[body].dense;
+      if (dense >= solver.place.size() || solver.place[dense].island == kNone) continue;
+      leave_to_fast_solver(solver, solver.islands[solver.place[dense].island]);
+    }
+  }
+}
+
 }  // namespace
 
 void find_newton_islands(WorldState& world) {
@@ -131,6 +143,7 @@ void find_newton_islands(WorldState& world) {
   Solver& solver = *world.newton;
   number_islands(world, solver);
   if (chooses) leave_uncalled_islands(world, solver);
+  if (world.counts.grained > 0) leave_grained_islands(world, solver);
   solver.too_large = 0;
   std::vector<std::uint8_t> fits(solver.count, 0);
   parallel_for(world, solver.count, 1, [&](std::uint32_t begin, std::uint32_t end) {
