@@ -25,20 +25,28 @@ enum class Coordinate : std::uint8_t {
   LinearX,  // d . x, and so on
   LinearY,
   LinearZ,
-  AlignY,  // y . (x of B): zero when the x axes coincide
+  AlignY,  // y . (x of B): zero when B's x axis lies across A's y axis
   AlignZ,
   TurnX,  // twice the vector part of the relative quaternion, along the axes of A
   TurnY,
   TurnZ,
   Twist,   // angle about x, whole turns counted
-  SwingY,  // angle of B's x axis about y, in the plane of x and z
-  SwingZ,  // about z, in the plane of x and y
-  Cone,    // angle between the x axes
-  RateX,   // no coordinate, only a rate: relative angular velocity along the axes of A
+  TwistY,  // about y and z, within half a turn
+  TwistZ,
+  AxisXAboutY,  // the turn without twist that takes A's x axis to B's, as a rotation vector
+  AxisXAboutZ,
+  AxisYAboutZ,  // the same of the y axes
+  AxisYAboutX,
+  AxisZAboutX,
+  AxisZAboutY,
+  Cone,   // angle between the x axes
+  RateX,  // no coordinate, only a rate: relative angular velocity along the axes of A
   RateY,
   RateZ,
   Distance,  // |d|
   Pulley,
+  PulleyA,  // what one end of a pulley's rope has beyond all of it
+  PulleyB,
   Coupling,  // first + ratio * second
 };
 

@@ -62,11 +62,8 @@ struct Laws {
     const Real gap = sign * (row.value - bound), h = moment.h;
     Real lack, least = 0;
     if (solving()) {
-      const Real push = is_linear(row.coordinate)
-                            ? joint_tolerance::kPushSizesPerSecond * block.size
-                            : joint_tolerance::kPushTurn;
-      lack = sign * (moment.end - row.value) / h;
-      lack += gap < Real(0) ? std::max(gap / h, -push) : gap / h;
+      // What is beyond the limit already comes back in positions alone (joint_close.cpp).
+      lack = (sign * (moment.end - row.value) + std::max(gap, Real(0))) / h;
     } else {
       const Real before = row.impulses.first[part];
       if (block.split) least = -before;  // what was pushed too much before is taken back

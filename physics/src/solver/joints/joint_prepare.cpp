@@ -25,11 +25,14 @@ void make_jacobians(JointBlock& block, const Moved* moved) {
     at[p] = place_pair(block.pair[p], moved[block.place[2 * p]], moved[block.place[2 * p + 1]]);
   for (int k = 0; k < block.rows * block.bodies; ++k) block.J[k] = {{0, 0, 0}, {0, 0, 0}};
   for (int i = 0; i < block.rows; ++i) {
-    if (block.row[i].coordinate == Coordinate::Pulley) {
+    if (is_pulley(block.row[i].coordinate)) {
       const PulleyRopes ropes = pulley_ropes(block, moved);
-      add(jacobian(block, i, block.place[0]), Real(1), {ropes.n_a, cross(ropes.arm_a, ropes.n_a)});
-      add(jacobian(block, i, block.place[1]), block.ratio,
-          {ropes.n_b, cross(ropes.arm_b, ropes.n_b)});
+      if (block.row[i].coordinate != Coordinate::PulleyB)
+        add(jacobian(block, i, block.place[0]), Real(1),
+            {ropes.n_a, cross(ropes.arm_a, ropes.n_a)});
+      if (block.row[i].coordinate != Coordinate::PulleyA)
+        add(jacobian(block, i, block.place[1]), block.ratio,
+            {ropes.n_b, cross(ropes.arm_b, ropes.n_b)});
       continue;
     }
     const bool coupling = block.row[i].coordinate == Coordinate::Coupling;

@@ -116,6 +116,10 @@ class PieceSolver {
         bounds[count++] = {3 * g, kMotor, time(block) * block.free[3 * g].max_effort};
     return count;
   }
+  // Whether free row f resists turning together with two others, and limits bound the turn as well.
+  [[nodiscard]] static bool beside_limits(const JointBlock& block, int f) {
+    return block.friction_group > 0 && f >= block.friction_group;
+  }
   // The law of part `part` of a free row.
   [[nodiscard]] Law law_of(const JointBlock& block, const Now& now, int f, RowPart part) const {
     Law laws[kMaxLaws];
@@ -189,6 +193,10 @@ class PieceSolver {
             next.value = -static_cast<double>(laws[k].lack);
           }
         }
+        // Friction that sticks holds what limits hold as well.
+        if (next.rigid == kFriction && beside_limits(block, f))
+          next.give =
+              joint_tolerance::kFrictionGive * static_cast<double>(block.free_inverse_mass[f]);
         next.acts = next.laws != 0;
         if (next.rigid < 0 && G > 0) {
           next.give = 1 / G;

@@ -15,6 +15,12 @@ namespace plumb::inline PLUMB_ABI::detail::joint_tolerance {
 inline constexpr double kCompliance = 1e-11;
 inline constexpr double kLoopCompliance = 1e-5;
 
+// How much friction against turning yields in one of Newton's steps where limits bound the turn
+// too, relative to what it can turn [-]. Five rows of three angles ask for rates that contradict
+// each other by round-off: this bounds the impulses at which they do. What is left goes in the next
+// step.
+inline constexpr double kFrictionGive = 1e-3;
+
 // A row of which the rows before it leave this part of what it can move is held by them [-]: what
 // is left is round-off.
 inline constexpr double kUnmoved = 1e-9;
