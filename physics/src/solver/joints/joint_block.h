@@ -72,6 +72,9 @@ struct FreeRow {
   Real restitution = 0;
   // Soft hold: a spring given by frequency.
   Real hold_frequency = 0, hold_damping_ratio = 0;
+  // Part of a spring's impulse that comes before the drift where impulses are split [-]: 1/2 to 1,
+  // the more the stiffer it is (joint_laws.h).
+  Real spring_share = Real(0.5), servo_share = Real(0.5), limit_share = Real(0.5);
 };
 
 struct JointRow {
@@ -123,6 +126,7 @@ struct JointBlock {
   bool needs_inverse_mass = false;
   Real free_inverse_mass[kMaxFree] = {};
   Vec force_sum{0, 0, 0}, torque_sum{0, 0, 0};  // [N s], [N m s] on B over the step
+  Real h = 0;                                   // [s] its substep
   Real elapsed = 0;     // [s] of the substep; what is not dynamic has moved on for so long
   Real correction = 1;  // part of the position error that one substep takes away
 };

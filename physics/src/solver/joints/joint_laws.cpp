@@ -31,10 +31,13 @@ struct Laws {
     return is_second(block, moment.pass) ? row.impulses.second[part] : row.impulses.first[part];
   }
 
-  void soft(RowPart part, Real rest, Real k, Real c, Real impulse, Real lower, Real upper) {
-    const Real T = time(), G = T * (k * T + c);
+  // share: of its impulse that comes before the drift where impulses are split.
+  void soft(RowPart part, Real share, Real rest, Real k, Real c, Real impulse, Real lower,
+            Real upper) {
+    const Real part_gone = block.split ? share : Real(1);
+    const Real T = part_gone * moment.h, G = T * (k * T + c);
     if (!solving() || !(G > Real(0))) return;
-    const Real x = (block.split ? Real(0.5) * (row.value + moment.end) : moment.end) - rest;
+    const Real x = row.value + part_gone * (moment.end - row.value) - rest;
     const Real lack = (impulse + T * (k * x + c * moment.rate)) / G;
     out[count++] = {part, true, lack, Real(1) / G, impulse, lower, upper};
   }
@@ -55,7 +58,8 @@ struct Laws {
     };
     if (free.limit_frequency > Real(0)) {
       one_sided(Real(0), [&](Real lower, Real upper) {
-        soft(part, bound, free.limit_stiffness, free.limit_damping, impulse, lower, upper);
+        soft(part, free.limit_share, bound, free.limit_stiffness, free.limit_damping, impulse,
+             lower, upper);
       });
       return;
     }
@@ -88,11 +92,13 @@ int laws_of(const JointBlock& block, int f, const RowMoment& moment, Law laws[kM
   Laws all{block, row, free, moment, laws};
   const Real effort = all.time() * free.max_effort;
   if (free.spring)
-    all.soft(kSpring, free.rest, free.stiffness, free.damping, all.now(kSpring), -kUnlimited,
-             free.pulls_only ? Real(0) : kUnlimited);
-  if (free.servo && free.servo_frequency > Real(0))
-    all.soft(kMotor, free.servo_target, free.servo_stiffness, free.servo_damping, all.now(kMotor),
-             -effort, effort);
+    all.soft(kSpring, free.spring_share, free.rest, free.stiffness, free.damping, all.now(kSpring),
+             -kUnlimited, free.pulls_only ? Real(0) : kUnlimited);
+  if (free.servo && free.servo_frequency > Real(0)) {
+    const Real most = block.split ? Real(2) * free.servo_share * effort : effort;
+    all.soft(kMotor, free.servo_share, free.servo_target, free.servo_stiffness, free.servo_damping,
+             all.now(kMotor), -most, most);
+  }
   const bool soft_limits = free.limited && free.limit_frequency > Real(0);
   const auto limits = [&] {
     all.limit(kLower, Real(1), free.lower);

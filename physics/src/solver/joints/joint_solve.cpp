@@ -395,13 +395,14 @@ void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass) {
       if (!second) {
         note_approach(block.row[i], row, row_rate(block, i, u));
       } else {
-        // The second half of what springs do is the same as the first.
-        impulses.second[kSpring] = impulses.first[kSpring];
+        // The second part of what springs do follows from the first.
+        const auto rest = [](Real share) { return (Real(1) - share) / share; };
+        impulses.second[kSpring] = rest(row.spring_share) * impulses.first[kSpring];
         if (row.servo && row.servo_frequency > Real(0))
-          impulses.second[kMotor] = impulses.first[kMotor];
+          impulses.second[kMotor] = rest(row.servo_share) * impulses.first[kMotor];
         if (row.limit_frequency > Real(0)) {
-          impulses.second[kLower] = impulses.first[kLower];
-          impulses.second[kUpper] = impulses.first[kUpper];
+          for (const RowPart side : {kLower, kUpper})
+            impulses.second[side] = rest(row.limit_share) * impulses.first[side];
         } else {
           for (const RowPart side : {kLower, kUpper})
             impulses.second[side] = std::max(impulses.second[side], -impulses.first[side]);
