@@ -31,18 +31,27 @@ struct Laws {
     return is_second(block, moment.pass) ? row.impulses.second[part] : row.impulses.first[part];
   }
 
+  // [m] or [rad] of its displacement by which a spring pulls at most: one that substeps can follow
+  // by all, one that acts like a rigid hold by what Newton's method can take back in one.
+  [[nodiscard]] Real reach(Real share) const {
+    const Real size = is_linear(row.coordinate) ? block.size : Real(1);
+    return share > Real(0.5) ? joint_tolerance::kReach * size / (Real(2) * share - Real(1))
+                             : kUnlimited;
+  }
   // share: of its impulse that comes before the drift where impulses are split.
   void soft(RowPart part, Real share, Real rest, Real k, Real c, Real impulse, Real lower,
             Real upper) {
     const Real part_gone = block.split ? share : Real(1);
     const Real T = part_gone * moment.h, G = T * (k * T + c);
     if (!solving() || !(G > Real(0))) return;
-    const Real x = row.value + part_gone * (moment.end - row.value) - rest;
+    const Real most = reach(share);
+    const Real x =
+        std::min(std::max(row.value - rest, -most), most) + part_gone * (moment.end - row.value);
     const Real lack = (impulse + T * (k * x + c * moment.rate)) / G;
-    out[count++] = {part, true, lack, Real(1) / G, impulse, lower, upper};
+    out[count++] = {part, true, share > Real(0.5), lack, Real(1) / G, impulse, lower, upper};
   }
   void rigid(RowPart part, Real lack, Real impulse, Real lower, Real upper) {
-    out[count++] = {part, false, lack, Real(0), impulse, lower, upper};
+    out[count++] = {part, false, false, lack, Real(0), impulse, lower, upper};
   }
 
   // Sign +1 keeps the coordinate above, -1 below `bound`.

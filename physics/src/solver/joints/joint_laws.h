@@ -23,9 +23,10 @@ namespace plumb::inline PLUMB_ABI::detail {
 struct Law {
   RowPart part = kSpring;
   bool soft = false;
-  Real lack = 0;     // [m/s] or [rad/s] by which u misses what the law asks for at its impulse
-  Real give = 0;     // d lack / d l of the law itself; zero of a rigid one
-  Real impulse = 0;  // along the row, whichever way it is counted in RowImpulses
+  bool stiff = false;  // a spring that acts like a rigid hold: substeps cannot follow it
+  Real lack = 0;       // [m/s] or [rad/s] by which u misses what the law asks for at its impulse
+  Real give = 0;       // d lack / d l of the law itself; zero of a rigid one
+  Real impulse = 0;    // along the row, whichever way it is counted in RowImpulses
   Real lower = 0, upper = 0;
 
   [[nodiscard]] bool inside() const { return lower < impulse && impulse < upper; }

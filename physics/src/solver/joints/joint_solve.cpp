@@ -48,7 +48,7 @@ class PieceSolver {
         if (!solving || error_ <= joint_tolerance::kClosed) return;
         // Newton's method has come too far from where it began: turns by more than a radian in a
         // substep. The step before is taken back; what is left loses energy, but never gains it.
-        if (arrived > 1 && error_ > before) return take_back();
+        if (arrived > (stiff_ ? 0 : 1) && error_ > before) return take_back();
         if (arrived > 1 && error_ > joint_tolerance::kSlowStep * before) return;
       }
       before = error_;
@@ -120,6 +120,11 @@ class PieceSolver {
   [[nodiscard]] static bool beside_limits(const JointBlock& block, int f) {
     return block.friction_group > 0 && f >= block.friction_group;
   }
+  // By how much a spring that acts like a rigid hold will miss its place, in sizes or radians [-].
+  [[nodiscard]] Real error_of(const JointBlock& block, int f, const Law& law) const {
+    const Real S = block.free_inverse_mass[f];
+    return std::abs(law.lack) * (S / (S + law.give)) * h_ / size_of(block, block.held + f);
+  }
   // The law of part `part` of a free row.
   [[nodiscard]] Law law_of(const JointBlock& block, const Now& now, int f, RowPart part) const {
     Law laws[kMaxLaws];
@@ -147,6 +152,7 @@ class PieceSolver {
     bool changed = false;
     has_laws_ = false;
     error_ = Real(0);
+    stiff_ = false;
     for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
       const JointBlock& block = scratch_.blocks[i];
       const Now now = look(block);
@@ -186,6 +192,8 @@ class PieceSolver {
             next.laws |= 1u << laws[k].part;
             G += 1 / static_cast<double>(laws[k].give);
             sum += static_cast<double>(laws[k].lack) / static_cast<double>(laws[k].give);
+            if (laws[k].stiff) error_ = std::max(error_, error_of(block, f, laws[k]));
+            stiff_ = stiff_ || laws[k].stiff;
           } else {  // the last one wins: limits over friction over motors
             if (next.rigid >= 0) next.laws &= ~(1u << next.rigid);
             next.rigid = static_cast<int>(laws[k].part);
@@ -372,7 +380,8 @@ class PieceSolver {
   Real h_;
   bool linear_ = true;
   bool has_laws_ = false;
-  Real error_ = 0;  // largest [-] by which a held coordinate will be off, in sizes or radians
+  bool stiff_ = false;  // some spring acts like a rigid hold
+  Real error_ = 0;      // largest [-] by which a held coordinate will be off, in sizes or radians
 };
 
 }  // namespace

@@ -68,6 +68,9 @@ inline constexpr Real kTurnPerCycle = Real(0.25);
 inline constexpr Real kVibrationPerCycle = Real(0.7);
 inline constexpr int kMostCycles = 8;
 
+// What a spring without end of stiffness may take back in a substep, in body sizes or radians [-].
+inline constexpr Real kReach = Real(0.25);
+
 // A limit with restitution does not bounce below this many times the speed that forces add in a
 // substep [-].
 inline constexpr Real kBounceCut = Real(4);
