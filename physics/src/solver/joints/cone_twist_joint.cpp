@@ -14,8 +14,8 @@ void make_rows(const ConeTwistJoint& joint, RowBuilder& rows) {
     rows.hold(c);
   const bool narrow = joint.cone < joint_tolerance::kNarrowCone;
   if (narrow) {
-    rows.hold(Coordinate::AlignY);
-    rows.hold(Coordinate::AlignZ);
+    rows.hold(Coordinate::AxisXAboutY);
+    rows.hold(Coordinate::AxisXAboutZ);
     rows.leave(Coordinate::Twist,
                {.limit = JointLimit{joint.twist_lower, joint.twist_upper, joint.softness},
                 .friction = joint.friction});

@@ -6,10 +6,10 @@
 //   coordinate  C                      rate J V                               terms on (v_B, w_B)
 //   Linear n    n . d, n fixed in A    n . (v_B + w_B x r_B - v_A - w_A x (r_A + d))     n, r_B x n
 //   Align y     y . x'                 w . (x' x y)
+//   Axis e      e . r, r the turn without twist from x to x'  e + (a cot a - 1) e.p p - a e.q x,
+//                                                             p, q: unit, across x; a = |r|
 //   Turn e      2 e . vec(q)           w . (q_w e + vec(q) x e), q = R_A^-1 R_B with q_w >= 0
 //   Twist       2 atan2(q_x, q_w)      w . (x + x') / (1 + x . x')
-//   Swing z     atan2(x'.y, x'.x)      w . (c (x' x y) - p (x' x x)) / (p^2 + c^2), c = x'.x, p =
-//   x'.y
 //   Cone        atan2(|x x x'|, x.x')  w . (x x x') / |x x x'|
 //   Rate e      none                   w . e
 //   Distance    |d|                    n . (v_B + w_B x r_B - v_A - w_A x r_A), n = d / |d|

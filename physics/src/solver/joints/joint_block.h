@@ -25,20 +25,28 @@ enum class Coordinate : std::uint8_t {
   LinearX,  // d . x, and so on
   LinearY,
   LinearZ,
-  AlignY,  // y . (x of B): zero when the x axes coincide
+  AlignY,  // y . (x of B): zero when B's x axis lies across A's y axis
   AlignZ,
   TurnX,  // twice the vector part of the relative quaternion, along the axes of A
   TurnY,
   TurnZ,
   Twist,   // angle about x, whole turns counted
-  SwingY,  // angle of B's x axis about y, in the plane of x and z
-  SwingZ,  // about z, in the plane of x and y
-  Cone,    // angle between the x axes
-  RateX,   // no coordinate, only a rate: relative angular velocity along the axes of A
+  TwistY,  // about y and z, within half a turn
+  TwistZ,
+  AxisXAboutY,  // the turn without twist that takes A's x axis to B's, as a rotation vector
+  AxisXAboutZ,
+  AxisYAboutZ,  // the same of the y axes
+  AxisYAboutX,
+  AxisZAboutX,
+  AxisZAboutY,
+  Cone,   // angle between the x axes
+  RateX,  // no coordinate, only a rate: relative angular velocity along the axes of A
   RateY,
   RateZ,
   Distance,  // |d|
   Pulley,
+  PulleyA,  // what one end of a pulley's rope has beyond all of it
+  PulleyB,
   Coupling,  // first + ratio * second
 };
 
@@ -64,6 +72,9 @@ struct FreeRow {
   Real restitution = 0;
   // Soft hold: a spring given by frequency.
   Real hold_frequency = 0, hold_damping_ratio = 0;
+  // Part of a spring's impulse that comes before the drift where impulses are split [-]: 1/2 to 1,
+  // the more the stiffer it is (joint_laws.h).
+  Real spring_share = Real(0.5), servo_share = Real(0.5), limit_share = Real(0.5);
 };
 
 struct JointRow {
@@ -115,6 +126,7 @@ struct JointBlock {
   bool needs_inverse_mass = false;
   Real free_inverse_mass[kMaxFree] = {};
   Vec force_sum{0, 0, 0}, torque_sum{0, 0, 0};  // [N s], [N m s] on B over the step
+  Real h = 0;                                   // [s] its substep
   Real elapsed = 0;     // [s] of the substep; what is not dynamic has moved on for so long
   Real correction = 1;  // part of the position error that one substep takes away
 };

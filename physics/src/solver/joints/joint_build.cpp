@@ -118,10 +118,11 @@ void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot,
   RowBuilder rows(block, joint.component.softness);
   std::visit([&](const auto& kind) { make_rows(kind, rows); }, joint.component.kind);
   block.split = piece.split;
+  block.h = piece.h;
   if (!piece.whole) block.correction = joint_tolerance::kSharedCorrection;
   block.needs_inverse_mass = block.friction_group >= 0 || block.motor_groups > 0;
   for (int f = 0; f < block.rows - block.held; ++f)
-    block.needs_inverse_mass = block.needs_inverse_mass || block.free[f].hold_frequency > Real(0) ||
+    block.needs_inverse_mass = block.needs_inverse_mass || block.free[f].spring ||
                                block.free[f].servo_frequency > Real(0) ||
                                block.free[f].limit_frequency > Real(0);
   recall_impulses(world, joint.memory, block);

@@ -51,7 +51,8 @@ void for_steps(const JointScratch& scratch, std::uint32_t place, Task&& task) {
   for (int k = 0; k < block.bodies; ++k) {
     if (!block.moves[k]) continue;
     Vec linear{0, 0, 0}, angular{0, 0, 0};
-    for (int i = 0; i < block.held; ++i) {
+    for (int i = 0; i < block.rows; ++i) {
+      if (i >= block.held && !rows[i].acts) continue;
       const BodyJacobian& J = block.J[i * block.bodies + k];
       const Real l = static_cast<Real>(rows[i].value);
       linear += l * J.linear;
@@ -64,17 +65,34 @@ void for_steps(const JointScratch& scratch, std::uint32_t place, Task&& task) {
 
 // The part of the step that may be gone [-]. error: the largest one, in sizes or radians.
 Real share_of_step(const WorldState& world, const JointPiece& piece, Real error) {
-  static thread_local std::vector<Vec> turn;  // per body; kept for its storage only
+  struct Step {
+    Vec path, turn;
+  };
+  static thread_local std::vector<Step> steps;  // per body; kept for its storage only
   const JointScratch& scratch = *world.joints.scratch;
-  turn.resize(world.bodies.awake_end);
-  for_bodies(scratch, piece, [&](std::uint32_t i) { turn[i] = {0, 0, 0}; });
-  for (std::uint32_t p = piece.begin; p < piece.end; ++p)
-    for_steps(scratch, p, [&](std::uint32_t i, Vec, Vec turned) { turn[i] += turned; });
-  Real square = 0;
-  for_bodies(scratch, piece,
-             [&](std::uint32_t i) { square = std::max(square, length_squared(turn[i])); });
-  const Real allowed = Real(2) * joint_tolerance::kLeftOut * error;  // [rad^2]
-  return square > allowed ? std::sqrt(allowed / square) : Real(1);
+  steps.resize(world.bodies.awake_end);
+  for_bodies(scratch, piece, [&](std::uint32_t i) { steps[i] = {{0, 0, 0}, {0, 0, 0}}; });
+  Real sizes = 0;
+  for (std::uint32_t p = piece.begin; p < piece.end; ++p) {
+    sizes += scratch.blocks[p].size;
+    for_steps(scratch, p, [&](std::uint32_t i, Vec path, Vec turn) {
+      steps[i].path += path;
+      steps[i].turn += turn;
+    });
+  }
+  Real path = 0, turn = 0;  // squares
+  for_bodies(scratch, piece, [&](std::uint32_t i) {
+    path = std::max(path, length_squared(steps[i].path));
+    turn = std::max(turn, length_squared(steps[i].turn));
+  });
+  // No body goes farther than what all joints of the group may close together.
+  const Real farthest = piece.h * joint_tolerance::kPushSizesPerSecond * sizes;
+  const Real closed = std::min(error, piece.h * joint_tolerance::kPushTurn);
+  const Real allowed = Real(2) * joint_tolerance::kLeftOut * closed;  // [rad^2]
+  Real share = 1;
+  if (turn > allowed) share = std::sqrt(allowed / turn);
+  if (path > farthest * farthest) share = std::min(share, farthest / std::sqrt(path));
+  return share;
 }
 
 void displace(WorldState& world, std::uint32_t place, Real share) {
@@ -143,16 +161,27 @@ void keep_angular_momentum(WorldState& world, const JointPiece& piece, std::uint
   });
 }
 
-// Sets up the rows, C with so much damping [-]. Returns the largest error, in sizes or radians.
-Real ask_for_closing(JointScratch& scratch, const JointPiece& piece, double damping) {
+// [m] or [rad] by which row k is off: a held one either way, a rigid limit beyond its end.
+Real error_of(const JointBlock& block, int k) {
+  const JointRow& row = block.row[k];
+  if (k < block.held) return row.value - row.target;
+  const FreeRow& free = block.free[k - block.held];
+  if (!free.limited || free.limit_frequency > Real(0)) return Real(0);
+  return std::min(row.value - free.lower, Real(0)) + std::max(row.value - free.upper, Real(0));
+}
+
+// Sets up the rows, C with so much damping [-]. Limits only push: `again` leaves out those that
+// have been let go. Returns the largest error, in sizes or radians.
+Real ask_for_closing(JointScratch& scratch, const JointPiece& piece, double damping, bool again) {
   Real largest = 0;
   for (std::uint32_t i = piece.begin; i < piece.end; ++i) {
     const JointBlock& block = scratch.blocks[i];
     SystemRow* rows = &scratch.system.rows[std::size_t{kMaxJointRows} * i];
     for (int k = 0; k < block.rows; ++k) {
+      const bool open = k < block.held || !again || rows[k].acts;
       rows[k] = {};
-      if (k >= block.held) continue;
-      const Real error = block.row[k].value - block.row[k].target;
+      const Real error = open ? error_of(block, k) : Real(0);
+      if (k >= block.held && error == Real(0)) continue;
       largest = std::max(largest, std::abs(error) / size_of(block, k));
       const Real most = most_of(block, k, piece.h);
       rows[k].acts = true;
@@ -164,11 +193,33 @@ Real ask_for_closing(JointScratch& scratch, const JointPiece& piece, double damp
   return largest;
 }
 
+// Lets go of limits that would pull. Returns whether there were any.
+bool let_go(JointScratch& scratch, const JointPiece& piece) {
+  bool any = false;
+  for (std::uint32_t i = piece.begin; i < piece.end; ++i) {
+    const JointBlock& block = scratch.blocks[i];
+    SystemRow* rows = &scratch.system.rows[std::size_t{kMaxJointRows} * i];
+    for (int k = block.held; k < block.rows; ++k) {
+      if (!rows[k].acts || !(rows[k].value * static_cast<double>(error_of(block, k)) > 0)) continue;
+      rows[k].acts = false;
+      any = true;
+    }
+  }
+  return any;
+}
+
 // Solves for the step. Returns the part of it that may be gone.
-Real find_step(WorldState& world, const JointPiece& piece, Real error) {
+Real find_step(WorldState& world, const JointPiece& piece, double damping, Real& error) {
   JointScratch& scratch = *world.joints.scratch;
-  factor_piece(scratch.system, scratch.blocks, piece);
-  solve_factored(scratch.system, scratch.blocks, piece);
+  bool again = false;
+  do {
+    const Real largest = ask_for_closing(scratch, piece, damping, again);
+    if (!again) error = largest;
+    if (!(error > joint_tolerance::kClosed)) return Real(0);
+    factor_piece(scratch.system, scratch.blocks, piece);
+    solve_factored(scratch.system, scratch.blocks, piece);
+    again = let_go(scratch, piece);
+  } while (again);
   return share_of_step(world, piece, error);
 }
 
@@ -176,13 +227,10 @@ Real find_step(WorldState& world, const JointPiece& piece, Real error) {
 
 void close_joints_of(WorldState& world, const JointPiece& piece) {
   JointScratch& scratch = *world.joints.scratch;
-  const Real error = ask_for_closing(scratch, piece, 0);
+  Real error = 0;
+  Real share = find_step(world, piece, 0, error);
   if (!(error > joint_tolerance::kClosed)) return;
-  Real share = find_step(world, piece, error);
-  if (share < Real(1)) {
-    ask_for_closing(scratch, piece, joint_tolerance::kClosingDamping);
-    share = find_step(world, piece, error);
-  }
+  if (share < Real(1)) share = find_step(world, piece, joint_tolerance::kClosingDamping, error);
   const std::uint32_t origin = scratch.members[scratch.order[piece.begin]].body[0];
   Orbit before;
   if (!piece.anchored) before = orbit_of(world, piece, origin);

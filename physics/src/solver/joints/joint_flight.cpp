@@ -75,6 +75,7 @@ void fly_joint_group(WorldState& world, JointPiece& piece) {
   const Real h = world.h / static_cast<Real>(cycles);
   rescale_impulses(scratch, piece, h / piece.h);
   piece.h = h;
+  for_blocks([&](JointBlock& block) { block.h = h; });
   for (int cycle = 0; cycle < cycles; ++cycle) {
     for_all([&](std::uint32_t i) { kick(world, i, Real(0.5) * h); });
     for_blocks([&](JointBlock& block) { warm_start_joint(world, block, JointPass::Solve); });

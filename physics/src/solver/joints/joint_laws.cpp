@@ -31,15 +31,27 @@ struct Laws {
     return is_second(block, moment.pass) ? row.impulses.second[part] : row.impulses.first[part];
   }
 
-  void soft(RowPart part, Real rest, Real k, Real c, Real impulse, Real lower, Real upper) {
-    const Real T = time(), G = T * (k * T + c);
+  // [m] or [rad] of its displacement by which a spring pulls at most: one that substeps can follow
+  // by all, one that acts like a rigid hold by what Newton's method can take back in one.
+  [[nodiscard]] Real reach(Real share) const {
+    const Real size = is_linear(row.coordinate) ? block.size : Real(1);
+    return share > Real(0.5) ? joint_tolerance::kReach * size / (Real(2) * share - Real(1))
+                             : kUnlimited;
+  }
+  // share: of its impulse that comes before the drift where impulses are split.
+  void soft(RowPart part, Real share, Real rest, Real k, Real c, Real impulse, Real lower,
+            Real upper) {
+    const Real part_gone = block.split ? share : Real(1);
+    const Real T = part_gone * moment.h, G = T * (k * T + c);
     if (!solving() || !(G > Real(0))) return;
-    const Real x = (block.split ? Real(0.5) * (row.value + moment.end) : moment.end) - rest;
+    const Real most = reach(share);
+    const Real x =
+        std::min(std::max(row.value - rest, -most), most) + part_gone * (moment.end - row.value);
     const Real lack = (impulse + T * (k * x + c * moment.rate)) / G;
-    out[count++] = {part, true, lack, Real(1) / G, impulse, lower, upper};
+    out[count++] = {part, true, share > Real(0.5), lack, Real(1) / G, impulse, lower, upper};
   }
   void rigid(RowPart part, Real lack, Real impulse, Real lower, Real upper) {
-    out[count++] = {part, false, lack, Real(0), impulse, lower, upper};
+    out[count++] = {part, false, false, lack, Real(0), impulse, lower, upper};
   }
 
   // Sign +1 keeps the coordinate above, -1 below `bound`.
@@ -55,18 +67,16 @@ struct Laws {
     };
     if (free.limit_frequency > Real(0)) {
       one_sided(Real(0), [&](Real lower, Real upper) {
-        soft(part, bound, free.limit_stiffness, free.limit_damping, impulse, lower, upper);
+        soft(part, free.limit_share, bound, free.limit_stiffness, free.limit_damping, impulse,
+             lower, upper);
       });
       return;
     }
     const Real gap = sign * (row.value - bound), h = moment.h;
     Real lack, least = 0;
     if (solving()) {
-      const Real push = is_linear(row.coordinate)
-                            ? joint_tolerance::kPushSizesPerSecond * block.size
-                            : joint_tolerance::kPushTurn;
-      lack = sign * (moment.end - row.value) / h;
-      lack += gap < Real(0) ? std::max(gap / h, -push) : gap / h;
+      // What is beyond the limit already comes back in positions alone (joint_close.cpp).
+      lack = (sign * (moment.end - row.value) + std::max(gap, Real(0))) / h;
     } else {
       const Real before = row.impulses.first[part];
       if (block.split) least = -before;  // what was pushed too much before is taken back
@@ -91,11 +101,13 @@ int laws_of(const JointBlock& block, int f, const RowMoment& moment, Law laws[kM
   Laws all{block, row, free, moment, laws};
   const Real effort = all.time() * free.max_effort;
   if (free.spring)
-    all.soft(kSpring, free.rest, free.stiffness, free.damping, all.now(kSpring), -kUnlimited,
-             free.pulls_only ? Real(0) : kUnlimited);
-  if (free.servo && free.servo_frequency > Real(0))
-    all.soft(kMotor, free.servo_target, free.servo_stiffness, free.servo_damping, all.now(kMotor),
-             -effort, effort);
+    all.soft(kSpring, free.spring_share, free.rest, free.stiffness, free.damping, all.now(kSpring),
+             -kUnlimited, free.pulls_only ? Real(0) : kUnlimited);
+  if (free.servo && free.servo_frequency > Real(0)) {
+    const Real most = block.split ? Real(2) * free.servo_share * effort : effort;
+    all.soft(kMotor, free.servo_share, free.servo_target, free.servo_stiffness, free.servo_damping,
+             all.now(kMotor), -most, most);
+  }
   const bool soft_limits = free.limited && free.limit_frequency > Real(0);
   const auto limits = [&] {
     all.limit(kLower, Real(1), free.lower);

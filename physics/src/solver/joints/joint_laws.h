@@ -1,12 +1,16 @@
 // What acts along a free coordinate, as laws between its rate u and the impulse l along it.
 //
-//   soft    l = -T (k x + c u)     spring, servo, soft limit. x: the displacement half-way through
-//                                  the substep (the implicit midpoint rule, which keeps a spring's
-//                                  energy at any step); at its end where impulses are not split
+//   soft    l = -T (k x + c u)     spring, servo, soft limit. x: the displacement after the time T
 //   rigid   u = u*                 motor, servo without softness, friction [Coulomb], limit
 //
 // each with bounds on l: a motor's largest effort, T times the friction, a limit that only pushes.
 // T is the time for which the pass acts: h/2 where the impulses are split, else h.
+//
+// Springs: T = h/2 is the implicit midpoint rule, which keeps a spring's energy; T = h is the
+// implicit Euler rule, which damps what swings faster than substeps can follow. A spring that turns
+// by w h in a substep has T/h = 1 - kVibrationPerCycle / (2 w h), at least 1/2, where impulses are
+// split: no swing of it changes its sign undamped, as the midpoint rule would have it when w h is
+// large, and then every turn of the spring's line feeds energy.
 //
 // Both kinds are solved by the same step, dl = -lack / (S + give), S = du/dl of the mechanism.
 #pragma once
@@ -19,9 +23,10 @@ namespace plumb::inline PLUMB_ABI::detail {
 struct Law {
   RowPart part = kSpring;
   bool soft = false;
-  Real lack = 0;     // [m/s] or [rad/s] by which u misses what the law asks for at its impulse
-  Real give = 0;     // d lack / d l of the law itself; zero of a rigid one
-  Real impulse = 0;  // along the row, whichever way it is counted in RowImpulses
+  bool stiff = false;  // a spring that acts like a rigid hold: substeps cannot follow it
+  Real lack = 0;       // [m/s] or [rad/s] by which u misses what the law asks for at its impulse
+  Real give = 0;       // d lack / d l of the law itself; zero of a rigid one
+  Real impulse = 0;    // along the row, whichever way it is counted in RowImpulses
   Real lower = 0, upper = 0;
 
   [[nodiscard]] bool inside() const { return lower < impulse && impulse < upper; }

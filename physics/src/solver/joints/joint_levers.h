@@ -5,6 +5,7 @@
 
 #include "solver/joints/coordinates.h"
 #include "solver/joints/joint_block.h"
+#include "solver/joints/joint_laws.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -36,13 +37,14 @@ inline Real stiffness(Real f, const Lever& body, const Lever& other) {
   return f * body.r / (Real(1) / body.turn + body.r * body.r / other.along);
 }
 
-// [N] with which a joint pulled in the last substep of length h.
+// [N] with which a joint pulled in the last substep of length h: what it holds, springs and ropes.
 inline Real pull_of(const JointBlock& block, Real h) {
   Real square = 0;
-  for (int k = 0; k < block.held; ++k) {
+  for (int k = 0; k < block.rows; ++k) {
+    if (!is_linear(block.row[k].coordinate)) continue;
     const RowImpulses& l = block.row[k].impulses;
-    const Real both = l.first[kHold] + l.second[kHold];
-    if (is_linear(block.row[k].coordinate)) square += both * both;
+    const Real both = total_impulse(l, false) + (block.split ? total_impulse(l, true) : Real(0));
+    square += both * both;
   }
   return std::sqrt(square) / h;
 }

@@ -11,7 +11,7 @@ namespace plumb::inline PLUMB_ABI::detail {
 inline constexpr std::uint32_t kWorldBody = std::numeric_limits<std::uint32_t>::max();
 
 inline constexpr int kMaxJointRows = 8;
-inline constexpr int kMaxHeld = 6, kMaxFree = 6;
+inline constexpr int kMaxHeld = 6, kMaxFree = 8;
 inline constexpr int kMaxJointBodies = 4;
 inline constexpr int kMaxJacobians = 16;  // rows times bodies
 

@@ -45,6 +45,10 @@ inline PulleyRopes pulley_ropes(const JointBlock& block, const Moved* moved) {
   return ropes;
 }
 
+inline bool is_pulley(Coordinate coordinate) {
+  return coordinate >= Coordinate::Pulley && coordinate <= Coordinate::PulleyB;
+}
+
 // The coordinates that have a value, at given poses.
 inline void coordinates_at(const JointBlock& block, const Moved* moved, Real* values) {
   PlacedPair at[2];
@@ -54,9 +58,12 @@ inline void coordinates_at(const JointBlock& block, const Moved* moved, Real* va
     values[i] = Real(0);
     if (!block.row[i].needs_value) continue;
     const Coordinate coordinate = block.row[i].coordinate;
-    if (coordinate == Coordinate::Pulley) {
+    if (is_pulley(coordinate)) {
       const PulleyRopes ropes = pulley_ropes(block, moved);
-      values[i] = ropes.length_a + block.ratio * ropes.length_b - block.zero;
+      const Real a = ropes.length_a, b = block.ratio * ropes.length_b;
+      if (coordinate == Coordinate::Pulley) values[i] = a + b - block.zero;
+      if (coordinate == Coordinate::PulleyA) values[i] = a - block.zero;
+      if (coordinate == Coordinate::PulleyB) values[i] = b - block.zero;
     } else if (coordinate == Coordinate::Coupling) {
       values[i] = coordinate_of(block.pair[0].measured, at[0], block.pair[0].angle) +
                   block.ratio * coordinate_of(block.pair[1].measured, at[1], block.pair[1].angle) -

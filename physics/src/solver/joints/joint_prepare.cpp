@@ -25,11 +25,14 @@ void make_jacobians(JointBlock& block, const Moved* moved) {
     at[p] = place_pair(block.pair[p], moved[block.place[2 * p]], moved[block.place[2 * p + 1]]);
   for (int k = 0; k < block.rows * block.bodies; ++k) block.J[k] = {{0, 0, 0}, {0, 0, 0}};
   for (int i = 0; i < block.rows; ++i) {
-    if (block.row[i].coordinate == Coordinate::Pulley) {
+    if (is_pulley(block.row[i].coordinate)) {
       const PulleyRopes ropes = pulley_ropes(block, moved);
-      add(jacobian(block, i, block.place[0]), Real(1), {ropes.n_a, cross(ropes.arm_a, ropes.n_a)});
-      add(jacobian(block, i, block.place[1]), block.ratio,
-          {ropes.n_b, cross(ropes.arm_b, ropes.n_b)});
+      if (block.row[i].coordinate != Coordinate::PulleyB)
+        add(jacobian(block, i, block.place[0]), Real(1),
+            {ropes.n_a, cross(ropes.arm_a, ropes.n_a)});
+      if (block.row[i].coordinate != Coordinate::PulleyA)
+        add(jacobian(block, i, block.place[1]), block.ratio,
+            {ropes.n_b, cross(ropes.arm_b, ropes.n_b)});
       continue;
     }
     const bool coupling = block.row[i].coordinate == Coordinate::Coupling;
@@ -75,28 +78,39 @@ void make_inverse_masses(JointBlock& block) {
     block.free_inverse_mass[f] = static_cast<Real>(eliminate(block.held + f, block.held));
 }
 
+// The part before the drift of a spring that is as stiff as this [rad^2/s^2].
+Real share_of(const JointBlock& block, Real square) {
+  const Real turn = block.h * std::sqrt(square);
+  return std::max(Real(0.5), Real(1) - Real(0.5) * joint_tolerance::kVibrationPerCycle / turn);
+}
+
 // k = m w^2, c = 2 z m w with the mass m = 1/S that the spring really sees.
-void spring_from_frequency(Real frequency, Real damping_ratio, Real S, Real& stiffness,
-                           Real& damping) {
-  if (!(S > Real(0))) return;
+Real spring_from_frequency(const JointBlock& block, Real frequency, Real damping_ratio, Real S,
+                           Real& stiffness, Real& damping) {
   const Real w = kTwoPi * frequency;
-  stiffness = w * w / S;
-  damping = Real(2) * damping_ratio * w / S;
+  if (S > Real(0)) {
+    stiffness = w * w / S;
+    damping = Real(2) * damping_ratio * w / S;
+  }
+  return share_of(block, w * w);
 }
 
 void make_springs(JointBlock& block) {
   for (int f = 0; f < block.rows - block.held; ++f) {
     FreeRow& row = block.free[f];
     const Real S = block.free_inverse_mass[f];
-    if (row.hold_frequency > Real(0))
-      spring_from_frequency(row.hold_frequency, row.hold_damping_ratio, S, row.stiffness,
-                            row.damping);
+    if (row.hold_frequency > Real(0)) {
+      row.spring_share = spring_from_frequency(block, row.hold_frequency, row.hold_damping_ratio, S,
+                                               row.stiffness, row.damping);
+    } else if (row.spring) {
+      row.spring_share = share_of(block, row.stiffness * S);
+    }
     if (row.servo_frequency > Real(0))
-      spring_from_frequency(row.servo_frequency, row.servo_damping_ratio, S, row.servo_stiffness,
-                            row.servo_damping);
+      row.servo_share = spring_from_frequency(block, row.servo_frequency, row.servo_damping_ratio,
+                                              S, row.servo_stiffness, row.servo_damping);
     if (row.limit_frequency > Real(0))
-      spring_from_frequency(row.limit_frequency, row.limit_damping_ratio, S, row.limit_stiffness,
-                            row.limit_damping);
+      row.limit_share = spring_from_frequency(block, row.limit_frequency, row.limit_damping_ratio,
+                                              S, row.limit_stiffness, row.limit_damping);
   }
 }
 

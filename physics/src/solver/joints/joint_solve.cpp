@@ -48,7 +48,7 @@ class PieceSolver {
         if (!solving || error_ <= joint_tolerance::kClosed) return;
         // Newton's method has come too far from where it began: turns by more than a radian in a
         // substep. The step before is taken back; what is left loses energy, but never gains it.
-        if (arrived > 1 && error_ > before) return take_back();
+        if (arrived > (stiff_ ? 0 : 1) && error_ > before) return take_back();
         if (arrived > 1 && error_ > joint_tolerance::kSlowStep * before) return;
       }
       before = error_;
@@ -116,6 +116,15 @@ class PieceSolver {
         bounds[count++] = {3 * g, kMotor, time(block) * block.free[3 * g].max_effort};
     return count;
   }
+  // Whether free row f resists turning together with two others, and limits bound the turn as well.
+  [[nodiscard]] static bool beside_limits(const JointBlock& block, int f) {
+    return block.friction_group > 0 && f >= block.friction_group;
+  }
+  // By how much a spring that acts like a rigid hold will miss its place, in sizes or radians [-].
+  [[nodiscard]] Real error_of(const JointBlock& block, int f, const Law& law) const {
+    const Real S = block.free_inverse_mass[f];
+    return std::abs(law.lack) * (S / (S + law.give)) * h_ / size_of(block, block.held + f);
+  }
   // The law of part `part` of a free row.
   [[nodiscard]] Law law_of(const JointBlock& block, const Now& now, int f, RowPart part) const {
     Law laws[kMaxLaws];
@@ -143,6 +152,7 @@ class PieceSolver {
     bool changed = false;
     has_laws_ = false;
     error_ = Real(0);
+    stiff_ = false;
     for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
       const JointBlock& block = scratch_.blocks[i];
       const Now now = look(block);
@@ -182,6 +192,8 @@ class PieceSolver {
             next.laws |= 1u << laws[k].part;
             G += 1 / static_cast<double>(laws[k].give);
             sum += static_cast<double>(laws[k].lack) / static_cast<double>(laws[k].give);
+            if (laws[k].stiff) error_ = std::max(error_, error_of(block, f, laws[k]));
+            stiff_ = stiff_ || laws[k].stiff;
           } else {  // the last one wins: limits over friction over motors
             if (next.rigid >= 0) next.laws &= ~(1u << next.rigid);
             next.rigid = static_cast<int>(laws[k].part);
@@ -189,6 +201,10 @@ class PieceSolver {
             next.value = -static_cast<double>(laws[k].lack);
           }
         }
+        // Friction that sticks holds what limits hold as well.
+        if (next.rigid == kFriction && beside_limits(block, f))
+          next.give =
+              joint_tolerance::kFrictionGive * static_cast<double>(block.free_inverse_mass[f]);
         next.acts = next.laws != 0;
         if (next.rigid < 0 && G > 0) {
           next.give = 1 / G;
@@ -364,7 +380,8 @@ class PieceSolver {
   Real h_;
   bool linear_ = true;
   bool has_laws_ = false;
-  Real error_ = 0;  // largest [-] by which a held coordinate will be off, in sizes or radians
+  bool stiff_ = false;  // some spring acts like a rigid hold
+  Real error_ = 0;      // largest [-] by which a held coordinate will be off, in sizes or radians
 };
 
 }  // namespace
@@ -387,13 +404,14 @@ void warm_start_joint(WorldState& world, JointBlock& block, JointPass pass) {
       if (!second) {
         note_approach(block.row[i], row, row_rate(block, i, u));
       } else {
-        // The second half of what springs do is the same as the first.
-        impulses.second[kSpring] = impulses.first[kSpring];
+        // The second part of what springs do follows from the first.
+        const auto rest = [](Real share) { return (Real(1) - share) / share; };
+        impulses.second[kSpring] = rest(row.spring_share) * impulses.first[kSpring];
         if (row.servo && row.servo_frequency > Real(0))
-          impulses.second[kMotor] = impulses.first[kMotor];
+          impulses.second[kMotor] = rest(row.servo_share) * impulses.first[kMotor];
         if (row.limit_frequency > Real(0)) {
-          impulses.second[kLower] = impulses.first[kLower];
-          impulses.second[kUpper] = impulses.first[kUpper];
+          for (const RowPart side : {kLower, kUpper})
+            impulses.second[side] = rest(row.limit_share) * impulses.first[side];
         } else {
           for (const RowPart side : {kLower, kUpper})
             impulses.second[side] = std::max(impulses.second[side], -impulses.first[side]);

@@ -15,6 +15,12 @@ namespace plumb::inline PLUMB_ABI::detail::joint_tolerance {
 inline constexpr double kCompliance = 1e-11;
 inline constexpr double kLoopCompliance = 1e-5;
 
+// How much friction against turning yields in one of Newton's steps where limits bound the turn
+// too, relative to what it can turn [-]. Five rows of three angles ask for rates that contradict
+// each other by round-off: this bounds the impulses at which they do. What is left goes in the next
+// step.
+inline constexpr double kFrictionGive = 1e-3;
+
 // A row of which the rows before it leave this part of what it can move is held by them [-]: what
 // is left is round-off.
 inline constexpr double kUnmoved = 1e-9;
@@ -61,6 +67,9 @@ inline constexpr int kChainPasses = 16;
 inline constexpr Real kTurnPerCycle = Real(0.25);
 inline constexpr Real kVibrationPerCycle = Real(0.7);
 inline constexpr int kMostCycles = 8;
+
+// What a spring without end of stiffness may take back in a substep, in body sizes or radians [-].
+inline constexpr Real kReach = Real(0.25);
 
 // A limit with restitution does not bounce below this many times the speed that forces add in a
 // substep [-].
