@@ -31,7 +31,13 @@ struct DeltaOf {
 // meanwhile.
 template <class Row, class T>
 inline void place_arms(const Row& row, Vector3<T> dp_a, Vector3<T> dp_b, RowVelocities<T>& u) {
-  const Vector3<T> half = row.common_point * (dp_b - dp_a - row.advance);
+  // Arms much longer than those that the responses were computed with would make energy without
+  // end: where bodies fly past each other within a step, their angular momentum is not kept.
+  const auto within = [&](T x) {
+    return select(x > row.arm_room, row.arm_room, select(x < -row.arm_room, -row.arm_room, x));
+  };
+  const Vector3<T> path = row.common_point * (dp_b - dp_a - row.advance);
+  const Vector3<T> half{within(path.x), within(path.y), within(path.z)};
   u.arm_a = row.arm_a + half;
   u.arm_b = row.arm_b - half;
 }

@@ -53,6 +53,7 @@ struct SubstepBody {
   bool affected = false;  // some effect acts on it
   bool balanced = false;  // water or springs hold it, with nothing left over
   bool turned = false;    // fast: its rows are told anew within the step (turned_rows.h)
+  bool spun = false;      // ... it became fast within the step: they see its inertia as of now
 };
 
 // Spring-like softness of a contact, from a frequency, a damping ratio and the effective masses s
@@ -82,6 +83,7 @@ struct RowNumbers {
   Vector3<T> drive{};  // [m/s, m/s, rad/s] of B's surface over A's, added to (x, y, z)
   // 1/2 when both bodies are dynamic: then the arms follow them to one common point. Else 0.
   T common_point = T(0);
+  T arm_room = T(0);  // [m] by which they follow at most, along each axis (place_arms)
   T friction = T(0);  // [-]
   T bias_rate = T(0), mass_scale = T(1), impulse_scale = T(0);
   T push_speed_now = T(0);  // [m/s] limit of the velocity that works off overlap, this substep
@@ -112,6 +114,7 @@ struct ContactRow : RowNumbers<T, 4> {
   std::uint32_t contact = 0;             // index into the world's contacts
   int count = 0;
   bool in_block = false;  // the wide kernel has it in this step (contact_blocks.h)
+  bool spun = false;      // it holds a body that was set spinning within the step
 
   Vector3<T> between;  // [m] from A's centre of mass to B's
   bool both_dynamic = false;

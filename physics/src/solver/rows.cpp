@@ -1,5 +1,7 @@
 // Rows: from a manifold and two bodies to the numbers that the solver iterates on.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collision/rolling.h"
 #include "math/symmetric_inverse.h"
@@ -167,6 +169,13 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                         inverse_rotate(collider.in_body.q, normal));
 }
 
+// [m] Radius of gyration about the axis that turns most easily.
+Real smallest_gyration(const BodyMass& m) {
+  const Real easiest =
+      m.mass * std::max({m.inverse_moments.x, m.inverse_moments.y, m.inverse_moments.z});
+  return easiest > Real(0) ? Real(1) / std::sqrt(easiest) : std::numeric_limits<Real>::max();
+}
+
 // Turns the contact's axes so that t1 lies along the grain. A grain that stands on the contact
 // plane leaves friction round.
 void align_with_grain(const WorldState& world, const Pair& pair, ContactRow<Real>& row) {
@@ -217,6 +226,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const bool b_moves = bodies.mass[row.body_b].mass > Real(0);
   row.both_dynamic = a_moves && b_moves;
   row.common_point = row.both_dynamic ? Real(0.5) : Real(0);
+  row.arm_room = tolerance::kArmRoom * std::min(smallest_gyration(bodies.mass[row.body_a]),
+                                                smallest_gyration(bodies.mass[row.body_b]));
   Real gap = 0;  // between the surfaces, when the manifold was made
   for (int i = 0; i < row.count; ++i)
     gap += contact.manifold.points[i].separation - contact.advanced_gap;

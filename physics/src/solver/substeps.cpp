@@ -251,6 +251,7 @@ void run_substeps(WorldState& world) {
     });
     if (!world.turned_rows.empty()) renew_turned_rows(world);
     if (!world.bouncing_rows.empty()) renew_bouncing_rows(world);
+    if (renew_spun_rows(world)) pass = pass_over_blocks(world);
     if (ledger) charge_kick(world);
     if (!world.adhesive_rows.empty()) pull_together(world);
     if (joints) fly_joint_groups(world);
@@ -287,6 +288,7 @@ void run_substeps(WorldState& world) {
     if (ledger) charge_drift(world);
     if (!world.turned_rows.empty()) renew_turned_rows(world);
     if (!world.bouncing_rows.empty()) renew_bouncing_rows(world);
+    if (renew_spun_rows(world)) pass = pass_over_blocks(world);
     if (newton) settle_newton_islands(world);
     if (newton && ledger) charge(world, &EnergyLedger::normal);
     if (joints) relax_joints(world);

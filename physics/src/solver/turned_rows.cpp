@@ -4,6 +4,7 @@
 
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
+#include "solver/newton/newton_solver.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -75,6 +76,7 @@ void renew(WorldState& world, TurnedRow& turned) {
 
 void find_turned_rows(WorldState& world) {
   world.turned_rows.clear();
+  world.spun_rows.clear();
   bool any = false;
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
     SubstepBody& s = world.substep[i];
@@ -138,6 +140,56 @@ void renew_bouncing_rows(WorldState& world) {
     if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
   }
+}
+
+namespace {
+
+bool find_spun_bodies(WorldState& world) {
+  const bool newton = world.newton != nullptr && world.newton->count > 0;
+  bool any = false;
+  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
+    SubstepBody& s = world.substep[i];
+    if (!s.constrained || s.jointed || s.turned || s.spun) continue;
+    const Vec w = world.bodies.velocity[i].w;
+    const BodyMass& mass = world.bodies.mass[i];
+    if (!(world.dt * length(w) > tolerance::kFastTurn) || is_isotropic(mass)) continue;
+    if (newton && in_newton_island(world, i)) continue;
+    s.spun = world.dt * visible_turning(mass, orientation_now(world, i), w) > tolerance::kFastTurn;
+    any |= s.spun;
+  }
+  return any;
+}
+
+void list_spun_rows(WorldState& world) {
+  world.spun_rows.clear();
+  for (const ColorRange color : world.colors)
+    for (std::uint32_t k = color.begin; k < color.end; ++k) {
+      ContactRow<Real>& row = world.rows[k];
+      row.spun = world.substep[row.body_a].spun || world.substep[row.body_b].spun;
+      row.in_block = false;
+      if (row.spun) world.spun_rows.push_back(k);
+    }
+}
+
+}  // namespace
+
+bool renew_spun_rows(WorldState& world) {
+  const bool found = find_spun_bodies(world);
+  if (found) {
+    empty_blocks(world);
+    list_spun_rows(world);
+    fill_blocks(world);
+  }
+  if (world.spun_rows.empty()) return found;
+  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i)
+    if (world.substep[i].spun) turn_inertia(world, i);
+  for (const std::uint32_t k : world.spun_rows) {
+    ContactRow<Real>& row = world.rows[k];
+    if (world.substep[row.body_a].spun) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
+    if (world.substep[row.body_b].spun) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
+    fill_responses(row);
+  }
+  return found;
 }
 
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row) {

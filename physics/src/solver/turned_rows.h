@@ -27,6 +27,11 @@ void renew_turned_rows(WorldState& world);
 // would make energy out of every impulse. As above, before rows act.
 void renew_bouncing_rows(WorldState& world);
 
+// Bodies that rows have set spinning within the step: their rows leave the blocks
+// (contact_blocks.h) and see the inertia as of now, by which momentum becomes velocity, in place of
+// the step's start. Returns whether blocks were filled anew. As above, before rows act.
+bool renew_spun_rows(WorldState& world);
+
 // Motion of a row's bodies since the row was told.
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row);
 BodyDelta delta_of_b(const WorldState& world, const ContactRow<Real>& row);

@@ -6,6 +6,10 @@
 
 namespace plumb::inline PLUMB_ABI::detail::tolerance {
 
+// How far the arms of a contact between two dynamic bodies follow their motion within a step, in
+// smaller radii of gyration [-]: their response stays below twice the one it was solved for.
+inline constexpr Real kArmRoom = Real(0.5);
+
 // Overlap that a resting contact keeps, as a fraction of the smaller body's smallest thickness [-].
 // 0.002: 2 mm for a 1 m box. Without it resting points flicker between touching and not.
 inline constexpr Real kSlopFraction = Real(0.002);

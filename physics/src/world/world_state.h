@@ -142,6 +142,7 @@ struct WorldState {
   std::vector<SpinningRow> spinning_rows;
   std::vector<TurnedRow> turned_rows;
   std::vector<AdhesiveRow> adhesive_rows;
+  std::vector<std::uint32_t> spun_rows;
   std::shared_ptr<newton::Solver> newton;      // null until a step calls for it
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
   std::vector<BodyDelta> delta;                // per dense index
