@@ -42,6 +42,22 @@ const BadScene kBadScenes[] = {
      "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"sphere\",\n\"radius\": "
      "-1}]}]}",
      3, "'radius' of collider 0 of body 'body 0' is -1", "> 0"},
+    {"GravityBeyondAllBounds",
+     "{\"plumb_scene\": 1, \"bodies\": [],\n\"settings\": {\n\"gravity\": [0, -2e15, 0]}}", 3,
+     "'gravity' of settings holds -2e+15", "from -1e+15 to 1e+15"},
+    {"MassTooSmallForItsNumbers",
+     "{\"plumb_scene\": 1, \"bodies\": [{\n\"mass\": 1e-310, \"colliders\": [{\"shape\": "
+     "\"sphere\", "
+     "\"radius\": 1}]}]}",
+     2, "'mass' of body 'body 0' is 1e-310", "write a number from"},
+    {"MassTooLargeForItsNumbers",
+     "{\"plumb_scene\": 1, \"bodies\": [{\n\"mass\": {\"mass\": 1.7e308, \"inertia\": [1, 1, "
+     "1]}}]}",
+     2, "is 1.7e+308", "write a number from"},
+    {"DensityTooLargeForItsNumbers",
+     "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [{\"shape\": \"sphere\", \"radius\": "
+     "1,\n\"density\": 1.7e308}]}]}",
+     2, "'density' of collider 0 of body 'body 0' is 1.7e+308", "write a number from"},
     {"NoRadius", "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"shape\": \"sphere\"}]}]}",
      2, "has no 'radius'", "in metres"},
     {"NoShape", "{\"plumb_scene\": 1, \"bodies\": [{\"colliders\": [\n{\"radius\": 1}]}]}", 2,

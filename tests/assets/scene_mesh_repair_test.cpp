@@ -87,6 +87,30 @@ TEST_F(SceneMeshRepair, TurnsFacesOutwardsWhereAskedAndSaysSo) {
   }
 }
 
+// A surface needs no inside, so that it is not refused; but it is felt from the wrong side.
+TEST_F(SceneMeshRepair, IsAdvisedForASurfaceThatIsInsideOut) {
+  const auto notes = [&](unsigned turned, const std::string& keys) {
+    write_box(turned);
+    const auto loaded = assets::parse_scene(
+        R"({"plumb_scene": 1, "meshes": {"box": {"file": "box.obj", "collision": "surface")" +
+            keys + R"(}}, "bodies": [{"name": "body", "type": "static", "colliders": [)" +
+            R"({"shape": "mesh", "mesh": "box"}]}]})",
+        "test.json", folder_.string());
+    EXPECT_TRUE(loaded.ok()) << loaded.error();
+    PhysicsWorld world;
+    const auto made = instantiate(*loaded, world);
+    EXPECT_TRUE(made.ok()) << made.error();
+    return made->notes;
+  };
+  EXPECT_TRUE(notes(0, "").empty());
+  const auto inside_out = notes(kAll, "");
+  ASSERT_EQ(inside_out.size(), 1u);
+  EXPECT_NE(inside_out[0].find("mesh 'box' is inside out"), std::string::npos) << inside_out[0];
+  EXPECT_NE(inside_out[0].find("\"repair\": {\"orient\": true}"), std::string::npos);
+  for (const std::string& note : notes(kAll, R"(, "repair": {"orient": true})"))
+    EXPECT_EQ(note.find("inside out"), std::string::npos) << note;
+}
+
 // The report on a file shows what the same repair makes of it.
 TEST_F(SceneMeshRepair, IsShownByTheReport) {
   write_box(kFour);

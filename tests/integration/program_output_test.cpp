@@ -3,6 +3,7 @@
 // with its remedy, and nothing that was asked for is left out without a word.
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <string>
 
 #include "gtest/gtest.h"
@@ -55,6 +56,34 @@ TEST_F(ProgramInput, AFolderOrAPipeInPlaceOfAFileIsCalledOne) {
   const Outcome pipe = plumb("run " + file("pipe"));
   EXPECT_EQ(pipe.code, 2);
   EXPECT_TRUE(says(pipe, "a pipe")) << pipe.output;
+}
+
+TEST_F(ProgramInput, OptionsOfAMeshThatCannotBeAreRefusedBeforeTheFileIsRead) {
+  const std::string missing = file("no_such_mesh.obj");
+  for (const std::string options :
+       {"--density -1", "--density nan", "--density 0", "--density inf", "--method shell",
+        "--method shell --thickness 0", "--method shell --thickness nan", "--max-parts 0",
+        "--max-parts 1000000", "--weld -1", "--metres-per-unit 0", "--parts-distance -1"}) {
+    const Outcome outcome = plumb("mesh " + missing + " " + options);
+    EXPECT_EQ(outcome.code, 2) << options;
+    const std::string option = options.starts_with("--method")
+                                   ? std::string("--thickness")
+                                   : options.substr(0, options.find(' '));
+    EXPECT_TRUE(says(outcome, "plumb: " + option + ": ")) << options << ": " << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+  }
+}
+
+TEST_F(ProgramInput, AStepMayBeWrittenAsAFraction) {
+  const std::string run = "run " + kScenes + "ball_drop.json --steps 3 --dt ";
+  const Outcome fraction = plumb(run + "1/60");
+  EXPECT_EQ(fraction.code, 0) << fraction.output;
+  EXPECT_TRUE(says(fraction, "0.050 s in 3 steps of 16.667 ms")) << fraction.output;
+  for (const std::string bad : {"1/0", "1/", "/60", "1/60s", "nan", "sixtieth", "0/1", "-1/60"}) {
+    const Outcome outcome = plumb(run + bad);
+    EXPECT_EQ(outcome.code, 2) << bad << outcome.output;
+    EXPECT_TRUE(says(outcome, "--dt: ")) << bad << outcome.output;
+  }
 }
 
 // Steps of a nanosecond are not steps of "0.000 ms".
@@ -110,17 +139,33 @@ TEST_F(ProgramOutput, APoliteKillEndsTheRunEarlyAndKeepsItsRecording) {
   EXPECT_TRUE(says(info, "Finished     yes")) << info.output;
 }
 
-// Runs that are equal as far as both go are not simply "identical".
-TEST_F(ProgramOutput, ADiffCountsTheFramesThatOnlyOneHas) {
+// Each run grows a file of its own; whichever ends last has the name.
+TEST_F(ProgramOutput, RunsThatRecordToOneNameAtATimeLeaveAWholeRecording) {
+  const std::string run = std::string(PLUMB_PROGRAM) + " run -q " + kScenes +
+                          "stack_of_ten.json --steps 400 -o " + file("run.rrd");
+  const Outcome both = shell("{ " + run + " & first=$!; " + run + "; second=$?; wait $first && " +
+                             "test $second -eq 0; }");
+  EXPECT_EQ(both.code, 0) << both.output;
+  EXPECT_EQ(files(), 1u);
+  const Outcome verified = plumb("replay verify " + file("run.rrd"));
+  EXPECT_EQ(verified.code, 0) << verified.output;
+  EXPECT_TRUE(says(verified, "identical: 400 frames")) << verified.output;
+}
+
+// Runs that are equal as far as both go are not identical.
+TEST_F(ProgramOutput, ADiffSaysWhichRecordingIsShorter) {
   ASSERT_EQ(plumb(kShortRun + file("a.rrd")).code, 0);
   ASSERT_EQ(plumb("run -q " + kScenes + "ball_drop.json --steps 12 -o " + file("b.rrd")).code, 0);
   for (const std::string order : {"a.rrd b.rrd", "b.rrd a.rrd"}) {
     const std::string first = file(order.substr(0, 5)), second = file(order.substr(6));
     const Outcome diff = plumb("replay diff " + first + " " + second);
-    EXPECT_EQ(diff.code, 0) << diff.output;
-    EXPECT_TRUE(says(diff, "identical: 5 frames; 7 that only one of the two has")) << diff.output;
+    EXPECT_EQ(diff.code, 1) << diff.output;
+    EXPECT_TRUE(says(diff, file("a.rrd") + " is 7 frames shorter; the 5 frames that both have"))
+        << diff.output;
   }
-  EXPECT_FALSE(says(plumb("replay diff " + file("a.rrd") + " " + file("a.rrd")), "only one"));
+  const Outcome same = plumb("replay diff " + file("a.rrd") + " " + file("a.rrd"));
+  EXPECT_EQ(same.code, 0) << same.output;
+  EXPECT_TRUE(says(same, "identical: 5 frames\n")) << same.output;
 }
 
 TEST_F(ProgramOutput, ADiffSaysWhichRecordingIsWhichAndThatTheBodiesAreOthers) {

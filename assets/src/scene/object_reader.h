@@ -23,6 +23,9 @@ struct Range {
 };
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity(), false};
+// Masses and densities [kg, kg/m^3] that the build's numbers hold, and the inverse of which too.
+inline constexpr Range kMassRange{static_cast<double>(std::numeric_limits<Real>::min()),
+                                  1 / static_cast<double>(std::numeric_limits<Real>::min()), false};
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 
 class ObjectReader {

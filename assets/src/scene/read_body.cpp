@@ -54,7 +54,7 @@ void read_mass(const ObjectReader& in, SceneBody& body) {
   if (!node) return;
   if (node->kind == JsonNode::Kind::Number) {
     double mass = 0;
-    if (!in.number("mass", mass, kPositive)) return;
+    if (!in.number("mass", mass, kMassRange)) return;
     if (!in.has("colliders")) {
       in.problems().add(node->line,
                         "'mass' of " + in.what() +
@@ -69,7 +69,7 @@ void read_mass(const ObjectReader& in, SceneBody& body) {
   const ObjectReader parts(*node, "mass of " + in.what(), keys::kMass, in.problems());
   if (!parts.is_object()) return;
   MassProperties properties;
-  bool good = parts.number("mass", properties.mass, kPositive);
+  bool good = parts.number("mass", properties.mass, kMassRange);
   if (!parts.has("mass")) parts.missing("mass", "give the mass in kilograms");
   if (parts.has("center")) good = parts.vector("center", properties.center) && good;
   const JsonNode* inertia = parts.find("inertia");
@@ -137,7 +137,9 @@ void read_collider(const JsonNode& node, const std::string& what, const Scene& s
   read_pose(in, collider.collider.pose);
   read_surface(in, scene, collider);
   double density = 0;
-  if (in.number("density", density, kNotNegative)) {
+  const JsonNode* given = in.find("density");  // 0: the collider adds no mass
+  const bool none = given && given->kind == JsonNode::Kind::Number && given->number == 0;
+  if (in.number("density", density, none ? kNotNegative : kMassRange)) {
     collider.density = density;
     collider.collider.density = density;
   }

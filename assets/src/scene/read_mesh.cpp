@@ -111,7 +111,7 @@ void read_mesh(const JsonNode& node, const std::string& what, SceneMesh& mesh, P
   int vertices = static_cast<int>(mesh.max_hull_vertices);
   in.integer("max_hull_vertices", vertices, kFewestHullVertices, kMostHullVertices);
   mesh.max_hull_vertices = static_cast<std::size_t>(vertices);
-  in.number("density", mesh.mass.density, kPositive);
+  in.number("density", mesh.mass.density, kMassRange);
   if (const JsonNode* mass = in.find("mass_of")) read_mass_of(*mass, what, mesh.mass, problems);
 }
 

@@ -12,9 +12,10 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr double kUnitTolerance = 2e-3;
 constexpr int kMostSubsteps = 64;
 // Steps shorter or longer than these, and longer runs, are slips of a unit.
-constexpr Range kStepRange{1e-9, 1e3, false};   // [s]
-constexpr Range kRateRange{1e-3, 1e9, false};   // [1/s]
-constexpr Range kDurationRange{0, 1e9, false};  // [s]
+constexpr Range kStepRange{1e-9, 1e3, false};       // [s]
+constexpr Range kRateRange{1e-3, 1e9, false};       // [1/s]
+constexpr Range kGravityRange{-1e15, 1e15, false};  // [m/s^2]
+constexpr Range kDurationRange{0, 1e9, false};      // [s]
 
 Eigen::Quaterniond about(const Eigen::Vector3d& axis, double degrees) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kRadiansPerDegree, axis));
@@ -37,7 +38,7 @@ void read_step(const JsonNode& node, SceneStep& step, Problems& problems) {
 void read_settings(const JsonNode& node, WorldSettings& settings, Problems& problems) {
   const ObjectReader in(node, "settings", keys::kSettings, problems);
   if (!in.is_object()) return;
-  in.vector("gravity", settings.gravity);
+  in.vector("gravity", settings.gravity, kGravityRange);
   in.integer("substeps", settings.substeps, 1, kMostSubsteps);
   in.number("contact_frequency", settings.contact_frequency, kPositive);
   in.number("contact_damping_ratio", settings.contact_damping_ratio, kNotNegative);

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cli/read_number.h"
+
 namespace plumb::accuracy {
 namespace {
 
@@ -141,37 +143,14 @@ std::string words_of(const Knobs& knobs) {
          (knobs.warm_start ? "" : ", no warm start") + (knobs.continuous ? ", continuous" : "");
 }
 
-namespace {
-
-// The number at the start of a text; what follows it in `rest`.
-bool parse_number(const std::string& text, double& value, std::string& rest) {
-  if (text.empty()) return false;
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || !std::isfinite(value)) return false;
-  rest = end;
-  return true;
-}
-
-}  // namespace
-
 bool parse_step(const std::string& text, double& dt) {
-  std::string rest;
-  if (!parse_number(text, dt, rest)) return false;
-  if (!rest.empty()) {
-    double divisor = 0;
-    std::string more;
-    if (rest[0] != '/' || !parse_number(rest.substr(1), divisor, more) || !more.empty())
-      return false;
-    dt /= divisor;
-  }
   constexpr double kShortest = 1e-5, kLongest = 0.5;  // [s]
-  return dt >= kShortest && dt <= kLongest;
+  return cli::parse_seconds(text, dt) && dt >= kShortest && dt <= kLongest;
 }
 
 bool parse_duration(const std::string& text, double& seconds) {
   std::string unit;
-  if (!parse_number(text, seconds, unit)) return false;
+  if (!cli::parse_number(text, seconds, unit)) return false;
   if (unit == "ns") {
     seconds *= 1e-9;
   } else if (unit == "us") {

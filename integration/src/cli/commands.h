@@ -17,7 +17,7 @@ struct RunOptions {
   std::string scene;
   std::string output;                 // empty: nothing is recorded
   std::optional<std::int64_t> steps;  // >= 0
-  std::optional<double> dt;           // [s]
+  std::optional<std::string> dt;      // [s] "0.01" or "1/60"
   std::optional<int> substeps;
   std::optional<std::string> solver;  // a word of the scene key contact_solver
   int threads = 1;                    // 0: as many as the machine has

@@ -41,7 +41,8 @@ void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
       ->check(not_empty());
   run->add_option("--steps", options.steps, "Number of steps instead of the scene's duration")
       ->check(CLI::Range(std::int64_t{0}, kMostSteps));
-  run->add_option("--dt", options.dt, "Length of a step in seconds instead of the scene's");
+  run->add_option("--dt", options.dt,
+                  "Length of a step in seconds, such as 0.01 or 1/60, instead of the scene's");
   run->add_option("--substeps", options.substeps, "Solver steps within one step (1 to 64)");
   run->add_option("--solver", options.solver, "Contact solver instead of the scene's")
       ->check(CLI::IsMember({"soft_step", "newton", "auto"}));

@@ -1,5 +1,7 @@
 #include "cli/recording_file.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <system_error>
 
@@ -44,7 +46,8 @@ std::string RecordingFile::open(const std::string& path, const assets::Scene& sc
   if (std::string wrong = why_not(path, scene.source); !wrong.empty()) return wrong;
   auto state = std::make_unique<State>();
   state->path = behind_links(path);
-  state->partial = state->path + ".partial";
+  // Of this process alone: another one may be recording to the same name.
+  state->partial = state->path + "." + std::to_string(getpid()) + ".partial";
   replay::RecorderOptions options;
   options.path = state->partial;
   options.name = scene.name;

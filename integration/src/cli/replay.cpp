@@ -30,12 +30,12 @@ int report(const replay::VerifyResult& result, const char* what) {
     std::printf("DIFFERENT: %s\n", result.difference->text().c_str());
     return kFailed;
   }
-  std::printf("identical: %" PRIu64 " %s", result.steps, what);
   if (result.not_compared > 0) {
-    std::printf("; %" PRIu64 " that only one of the two has were not compared",
-                result.not_compared);
+    std::printf("DIFFERENT: %s; the %" PRIu64 " %s that both have are identical\n",
+                result.lengths().c_str(), result.steps, what);
+    return kFailed;
   }
-  std::printf("\n");
+  std::printf("identical: %" PRIu64 " %s\n", result.steps, what);
   return kOk;
 }
 

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
+#include "cli/read_number.h"
 #include "cli/recording_file.h"
 #include "cli/run_summary.h"
 #include "plumb/assets/scene.h"
@@ -26,10 +27,12 @@ extern "C" void ask_to_stop(int signal_number) {
 
 std::string apply(const RunOptions& options, assets::Scene& scene) {
   if (options.dt) {
-    if (!(*options.dt >= kShortestStep && *options.dt <= kLongestStep)) {
-      return "--dt: the step must be from 1e-9 to 1e3 seconds, for example 0.01";
+    double dt = 0;
+    if (!(parse_seconds(*options.dt, dt) && dt >= kShortestStep && dt <= kLongestStep)) {
+      return "--dt: '" + *options.dt +
+             "' is no step; it must be from 1e-9 to 1e3 seconds, for example 0.01 or 1/60";
     }
-    scene.step.dt = *options.dt;
+    scene.step.dt = dt;
   }
   if (options.substeps) {
     scene.settings.substeps = *options.substeps;

@@ -14,8 +14,8 @@ void visit_row(Table& t, EffectInfo& e, std::uint32_t& size) {
   t("numbers", size);
   t("memory", m.age, m.pull);
   t("work", m.step_work, m.work);
-  t("force", m.force.x, m.force.y, m.force.z);
-  t("torque", m.torque.x, m.torque.y, m.torque.z);
+  t.unbounded("force", m.force.x, m.force.y, m.force.z);
+  t.unbounded("torque", m.torque.x, m.torque.y, m.torque.z);
 }
 
 }  // namespace

@@ -16,16 +16,16 @@ void visit_joint(Table& t, JointInfo& j, std::uint32_t& size) {
   t("bodies", j.body_a, j.body_b);
   t("numbers", size);
   t("angle", m.angle, m.zero);
-  t("force", m.force.x, m.force.y, m.force.z);
-  t("torque", m.torque.x, m.torque.y, m.torque.z);
-  t("effort", m.effort);
+  t.unbounded("force", m.force.x, m.force.y, m.force.z);
+  t.unbounded("torque", m.torque.x, m.torque.y, m.torque.z);
+  t.unbounded("effort", m.effort);
   static constexpr const char* kNames[kMaxJointRows][2] = {
       {"first0", "second0"}, {"first1", "second1"}, {"first2", "second2"}, {"first3", "second3"},
       {"first4", "second4"}, {"first5", "second5"}, {"first6", "second6"}, {"first7", "second7"}};
   for (int i = 0; i < kMaxJointRows; ++i) {
     Real *a = m.rows[i].first, *b = m.rows[i].second;
-    t(kNames[i][0], a[0], a[1], a[2], a[3], a[4], a[5]);
-    t(kNames[i][1], b[0], b[1], b[2], b[3], b[4], b[5]);
+    t.unbounded(kNames[i][0], a[0], a[1], a[2], a[3], a[4], a[5]);
+    t.unbounded(kNames[i][1], b[0], b[1], b[2], b[3], b[4], b[5]);
   }
 }
 

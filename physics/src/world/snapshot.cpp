@@ -16,6 +16,7 @@
 #include "world/snapshot_contact_data.h"
 #include "world/snapshot_geometry.h"
 #include "world/snapshot_table.h"
+#include "world/validate.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -57,7 +58,7 @@ void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentu
   t("torque", f.torque.x, f.torque.y, f.torque.z);
   t("damping", f.linear_damping, f.angular_damping);
   t("gravity_scale", gravity_scale);
-  t("acceleration", i.acceleration.x, i.acceleration.y, i.acceleration.z);
+  t.unbounded("acceleration", i.acceleration.x, i.acceleration.y, i.acceleration.z);
   t("center", i.center_B.x, i.center_B.y, i.center_B.z);
   t("principal_axes", i.R_BP.x, i.R_BP.y, i.R_BP.z, i.R_BP.w);
   Eigen::Matrix3d& I = i.properties.I_Bcm_B;
@@ -91,7 +92,8 @@ void visit_collider(Table& t, ColliderInfo& c, ShapeNumbers& shape, WorldAabb& b
   t("filter", filter.layers, filter.collides_with, filter.group);
   t("density", c.component.density);
   t("user_data", c.component.user_data);
-  t("bounds", box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z);
+  t.unbounded("bounds", box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y,
+              box.upper.z);
 }
 
 // The rest of a pair follows from its colliders.
@@ -133,9 +135,9 @@ void visit_contact(Table& t, Contact& c) {
     Vec &f = c.friction_impulse[k], &s = c.step_friction_impulse[k];
     t(kNames[k][0], point.position.x, point.position.y, point.position.z, point.separation);
     t(kNames[k][1], point.feature);
-    t(kNames[k][2], c.normal_impulse[k], c.step_normal_impulse[k]);
-    t(kNames[k][3], f.x, f.y, f.z);
-    t(kNames[k][4], s.x, s.y, s.z);
+    t.unbounded(kNames[k][2], c.normal_impulse[k], c.step_normal_impulse[k]);
+    t.unbounded(kNames[k][3], f.x, f.y, f.z);
+    t.unbounded(kNames[k][4], s.x, s.y, s.z);
   }
   visit_kept(t, c.kept);
 }
@@ -189,6 +191,8 @@ bool restore_hulls(const Snapshot& in, std::vector<std::shared_ptr<const HullGeo
   return at == numbers->reals.size();
 }
 
+bool is_unit(const Rotation& q) { return check_orientation(to_public(q)).ok(); }
+
 // Builds bodies from their table. Dense places are given anew; nothing depends on them.
 bool restore_bodies(const Snapshot& in, WorldState& world) {
   TableReader table(in, "body");
@@ -205,7 +209,9 @@ bool restore_bodies(const Snapshot& in, WorldState& world) {
     bool awake = false;
     table.next_row();
     visit_body(table, info, velocity, pose, momentum, force, gravity_scale, awake);
-    if (!table.ok()) return false;
+    if (!table.ok() ||
+        (info.alive && !(info.properties.mass >= 0 && is_unit(pose.q) && is_unit(info.R_BP))))
+      return false;
     const std::uint32_t made = bodies.create();  // slots come in ascending order: none is free yet
     if (made != slot) return false;
     Eigen::Matrix3d& I = info.properties.I_Bcm_B;
@@ -256,7 +262,7 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
       if (info.body >= world.bodies.info.size() || !world.bodies.info[info.body].alive)
         return false;
       if (!shape_from(shape, hulls, geometries, info.component.shape) ||
-          !check_shape(info.component.shape).ok())
+          !check_shape(info.component.shape).ok() || !check_local_pose(info.component.pose).ok())
         return false;
       info.shape = make_collision_shape(info.component.shape);
       info.proxy = (info.is_static ? world.static_tree : world.moving_tree)

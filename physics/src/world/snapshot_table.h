@@ -1,6 +1,7 @@
 // Tables of a snapshot: one visitor lists a table's columns, and these two carry them out and back.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -68,6 +69,12 @@ class TableWriter {
       ((column.integers[at++] = static_cast<std::uint64_t>(values)), ...);
     }
   }
+  // A column that need not be finite in a sound world: bounds of a half-space, and what is
+  // remembered of the forces on a body that became non-finite and was taken out.
+  template <class... T>
+  void unbounded(const char* name, T&... values) {
+    (*this)(name, values...);
+  }
 
  private:
   ColumnWriter& out_;
@@ -76,7 +83,8 @@ class TableWriter {
   bool started_ = false;
 };
 
-// Reads rows of the same columns; every mismatch makes it fail, never read outside.
+// Reads rows of the same columns; every mismatch makes it fail, never read outside. So does a
+// number that is not finite in the type it goes to, save in unbounded columns.
 class TableReader {
  public:
   TableReader(const Snapshot& in, const char* table) : in_(in), prefix_(std::string(table) + ".") {
@@ -97,6 +105,13 @@ class TableReader {
   }
   template <class... T>
   void operator()(const char* name, T&... values) {
+    unbounded(name, values...);
+    if constexpr ((std::is_floating_point_v<T> && ...)) {
+      if (!(std::isfinite(values) && ...)) ok_ = false;
+    }
+  }
+  template <class... T>
+  void unbounded(const char* name, T&... values) {
     using First = std::tuple_element_t<0, std::tuple<T...>>;
     constexpr bool kIsReal = std::is_floating_point_v<First>;
     constexpr std::size_t kWidth = sizeof...(T);

@@ -31,6 +31,15 @@ std::string Difference::text() const {
   return all;
 }
 
+std::string VerifyResult::lengths() const {
+  const auto frames = [](std::uint64_t n) {
+    return std::to_string(n) + (n == 1 ? " frame" : " frames");
+  };
+  if (shorter.empty())
+    return "they begin at other frames: " + frames(not_compared) + " in one only";
+  return shorter + " is " + frames(missing) + " shorter";
+}
+
 VerifyResult verify(const std::string& path, const VerifyOptions& options) {
   VerifyResult result;
   const detail::Recording recording = detail::load(path, 0);
@@ -76,6 +85,9 @@ VerifyResult diff(const std::string& path_a, const std::string& path_b) {
                         " by the " + b.info.precision + " build: their bits cannot be the same");
     return result;
   }
+  const std::size_t steps_a = a.steps.size(), steps_b = b.steps.size();
+  if (steps_a != steps_b) result.shorter = steps_a < steps_b ? path_a : path_b;
+  result.missing = std::max(steps_a, steps_b) - std::min(steps_a, steps_b);
   std::size_t i = 0, k = 0;
   while (i < a.steps.size() && k < b.steps.size()) {
     if (a.steps[i].frame < b.steps[k].frame) {

@@ -55,16 +55,20 @@ struct VerifyResult {
   std::uint64_t steps = 0;  // compared
   // Of diff(): steps that only one of the two has, where one goes on longer or begins earlier.
   std::uint64_t not_compared = 0;
+  std::string shorter;  // of diff(): the path of the recording with fewer steps; empty: neither
+  std::uint64_t missing = 0;  // steps by which it is shorter
   std::optional<Difference> difference;
 
-  [[nodiscard]] bool identical() const { return outcome.ok() && !difference; }
+  [[nodiscard]] bool identical() const { return outcome.ok() && !difference && not_compared == 0; }
+  // Where not_compared > 0: "b.rrd is 60 frames shorter".
+  [[nodiscard]] std::string lengths() const;
 };
 
 // Simulates again from the recording alone: its first snapshot, its inputs, its time steps.
 VerifyResult verify(const std::string& path, const VerifyOptions& options = {});
 
 // Compares two recordings step by step, without simulating. Steps that only one of them has are
-// counted and not compared.
+// counted and not compared; with any of them the two are not identical.
 VerifyResult diff(const std::string& path_a, const std::string& path_b);
 
 struct ResumeResult {
