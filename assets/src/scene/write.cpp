@@ -34,7 +34,7 @@ Json json_of(const Material& material) {
           {"rolling_friction", tidy(material.rolling_friction)},
           {"torsional_friction", tidy(material.torsional_friction)},
           {"kind", material.kind},
-          {"grain", json_of(material.grain)},
+          {"grain", list(material.grain)},
           {"grain_friction", tidy(material.grain_friction)},
           {"adhesion", tidy(material.adhesion)}};
 }

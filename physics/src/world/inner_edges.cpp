@@ -1,6 +1,7 @@
 #include "world/inner_edges.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "collision/core_distance.h"
 #include "collision/core_support.h"
@@ -139,8 +140,10 @@ void drop_hidden_contacts(WorldState& world) {
   StepList<Touch> touches(&world.memory);
   list_touches(world, touches);
   const auto whole = [](const Touch& t) { return std::pair(t.mover, t.rigid); };
-  std::stable_sort(touches.begin(), touches.end(),
-                   [&](const Touch& a, const Touch& b) { return whole(a) < whole(b); });
+  std::sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) {
+    return std::tuple(a.mover, a.rigid, a.contact, a.of_b) <
+           std::tuple(b.mover, b.rigid, b.contact, b.of_b);
+  });
   StepList<std::uint8_t> hidden(world.contacts.size(), 0, &world.memory);
   for (std::size_t begin = 0, end; begin < touches.size(); begin = end) {
     for (end = begin + 1; end < touches.size() && whole(touches[end]) == whole(touches[begin]);)
