@@ -1,5 +1,6 @@
 // Invariant: bodies that fly at each other, past each other and into piles at any speed and with
-// any number of substeps lose energy by it and never gain.
+// any number of substeps lose energy by it and do not gain: by the rule of the hard cases, no more
+// than 1 % of the kinetic energy that they came with.
 #include <gtest/gtest.h>
 
 #include "support/build.h"
@@ -11,16 +12,17 @@ using namespace testing_support;
 
 constexpr double kDt = 1.0 / 60;  // [s]
 
-// Steps, and asks that the energy (no restitution, nothing that drives) only falls.
+// Steps, and asks that the energy (no restitution, nothing that drives) does not rise again.
 void expect_no_gain(PhysicsWorld& world, int steps, const std::string& what) {
-  double lowest = world.energy().total();
+  const EnergyReport start = world.energy();
+  const double allowed = 0.01 * (start.kinetic_linear + start.kinetic_angular);
+  double lowest = start.total();
   for (int i = 0; i < steps; ++i) {
     world.step(kDt);
-    const EnergyReport energy = world.energy();
+    const double energy = world.energy().total();
     ASSERT_EQ(world.last_report().quarantined, 0u) << what << " step " << i;
-    ASSERT_LE(energy.total(), lowest + 0.01 * (energy.kinetic_linear + energy.kinetic_angular))
-        << what << " step " << i;
-    lowest = std::min(lowest, energy.total());
+    ASSERT_LE(energy, lowest + allowed) << what << " step " << i;
+    lowest = std::min(lowest, energy);
   }
 }
 
