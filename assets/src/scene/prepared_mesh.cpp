@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "mass/integrals.h"
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
 #include "plumb/assets/repair.h"
@@ -14,19 +15,6 @@ namespace {
 constexpr double kNotableHullExcess = 0.05;  // relative volume
 // A body longer than this is more often one whose file is in millimetres.
 constexpr double kDoubtfulSize = 100;  // [m]
-
-// Of a closed mesh [m^3]: below zero where its triangles face inwards.
-double signed_volume(const TriangleMesh& mesh) {
-  if (mesh.vertices.empty()) return 0;
-  const Eigen::Vector3d from = mesh.vertices.front();  // near the mesh: keeps its digits
-  double six_volumes = 0;
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices[t[0]] - from, b = mesh.vertices[t[1]] - from,
-                          c = mesh.vertices[t[2]] - from;
-    six_volumes += a.dot(b.cross(c));
-  }
-  return six_volumes / 6;
-}
 
 }  // namespace
 
@@ -80,7 +68,7 @@ std::string MeshStore::make_surface(PreparedMesh& prepared) {
   if (!surface.ok()) return surface.error();
   prepared.surface = surface.value();
   const bool closed = prepared.surface->open_edges() == 0 && prepared.surface->odd_edges() == 0;
-  if (closed && signed_volume(prepared.mesh) < 0) {
+  if (closed && detail::polyhedron_moments(prepared.mesh).volume < 0) {
     prepared.notes.push_back("mesh '" + prepared.source->name +
                              "' is inside out: its triangles face inwards; if it is not meant to "
                              "be felt from within, give it \"repair\": {\"orient\": true}");

@@ -44,7 +44,8 @@ TEST_P(RandomWorlds, StaySoundAndGoOnAlikeAfterARestore) {
     for (int k = 0; k < kThingsAStep; ++k) {
       const std::string wrong = changes.act();
       ASSERT_EQ(wrong, "") << step;
-      if (step >= kSavedAt) ASSERT_EQ(changes_of_restored.act(), wrong) << step;
+      if (step < kSavedAt) continue;
+      ASSERT_EQ(changes_of_restored.act(), wrong) << step;
     }
     world.step(dt);
     ASSERT_NO_FATAL_FAILURE(expect_finite(world, step));
