@@ -21,8 +21,10 @@ struct Collider {
   LocalPose pose{};  // of the shape in the body frame
   Material material{};
   Filter filter{};
-  double density = 1000;   // [kg/m^3] >= 0; 0: this collider adds no mass
-  bool is_sensor = false;  // reports overlaps, never pushes, adds no mass
+  double density = 1000;  // [kg/m^3] >= 0; 0: this collider adds no mass
+  // Reports what overlaps it, never pushes, adds no mass. Sees every solid collider of a body that
+  // is not static; on a body that is not static itself, the static ones too. Never another sensor.
+  bool is_sensor = false;
   SurfaceVelocity surface_velocity{};
   // The side from which the collider is solid, as a direction out of it in its own axes [-] of any
   // length, finite; zero: solid from everywhere. What comes from elsewhere (more than 60 degrees

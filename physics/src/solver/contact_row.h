@@ -47,8 +47,8 @@ struct SubstepBody {
   Symmetric3<Real> I_inverse{};
   alignas(4 * sizeof(Real)) bool constrained = false;  // some row holds it
   bool bounced = false;                                // in this substep
-  bool driven = false;                                 // it touches a surface that runs
-  bool jointed = false;                                // some joint holds it
+  bool driven = false;    // a surface, a motor, an effect carries it on: it does not rest
+  bool jointed = false;   // some joint holds it
   bool split = false;     // ... and nothing that hangs on it touches anything
   bool affected = false;  // some effect acts on it
   bool balanced = false;  // water or springs hold it, with nothing left over

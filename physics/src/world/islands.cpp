@@ -167,8 +167,13 @@ void wake_around(WorldState& world, std::uint32_t body) {
     if (collider.proxy == AabbTree::kNull) continue;
     const AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
     world.moving_tree.query(tree.box(collider.proxy), [&](std::uint32_t other) {
-      const std::uint32_t owner = world.colliders.info[other].body;
-      if (owner != body && world.bodies.info[owner].island != kNone) sleepers.push_back(owner);
+      const ColliderInfo& met = world.colliders.info[other];
+      if (met.body == body) return;
+      // A kinematic body at rest is in no island: only a sensor has to find it again.
+      const bool sensed = collider.component.is_sensor || met.component.is_sensor;
+      if (world.bodies.info[met.body].island != kNone ||
+          (sensed && !world.bodies.is_awake(met.body)))
+        sleepers.push_back(met.body);
     });
   }
   std::sort(sleepers.begin(), sleepers.end());

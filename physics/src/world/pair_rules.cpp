@@ -56,7 +56,10 @@ bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t c
   const ColliderInfo& b = world.colliders.info[collider_b];
   if (a.body == b.body) return false;
   const MotionType type_a = world.bodies.info[a.body].type, type_b = world.bodies.info[b.body].type;
-  if (type_a != MotionType::Dynamic && type_b != MotionType::Dynamic) return false;
+  // Sensors see whatever moves or is moved; for anything else something must give way.
+  const MotionType least =
+      a.component.is_sensor || b.component.is_sensor ? MotionType::Kinematic : MotionType::Dynamic;
+  if (type_a < least && type_b < least) return false;
   if (a.component.is_sensor && b.component.is_sensor) return false;
   if (!world.joints.empty() && !a.component.is_sensor && !b.component.is_sensor &&
       joined_without_contact(world, a.body, b.body))

@@ -121,7 +121,7 @@ TEST(Overlaps, AMovingSensorThatStopsKeepsSeeingASleeper) {
   PhysicsWorld world;
   add_floor(world);
   const BodyId sleeper = add(world, body_at(at(0, 0.5, 0)), with(cube(0.5)));
-  const BodyId zone = add_sensor(world, {-3, 0.5, 0}, cube(0.5), MotionType::Kinematic);
+  const BodyId zone = add_sensor(world, {-3, 0.6, 0}, cube(0.5), MotionType::Kinematic);
   run(world, 3);
   ASSERT_FALSE(world.is_awake(sleeper));
   must(world.set_linear_velocity(zone, vec(3, 0, 0)));
@@ -131,6 +131,53 @@ TEST(Overlaps, AMovingSensorThatStopsKeepsSeeingASleeper) {
   EXPECT_FALSE(world.is_awake(sleeper));
   EXPECT_EQ(world.overlaps_of(collider_of(world, zone)).size(), 1u);
   must(world.set_linear_velocity(zone, vec(3, 0, 0)));
+  run(world, 1);
+  EXPECT_TRUE(listed(world).empty());
+}
+
+// A lift that is moved into a trigger, stands there, and is moved on.
+TEST(Overlaps, ATriggerSeesAKinematicBodyThatComesStandsAndGoes) {
+  PhysicsWorld world;
+  const BodyId lift = add(world, body_at(at(-3, 0.5, 0), MotionType::Kinematic), with(cube(0.5)));
+  const BodyId zone = add_sensor(world, {0, 0.5, 0}, cube(0.5));
+  const SensorOverlap expected{collider_of(world, zone), collider_of(world, lift)};
+  const auto moved = [&](double speed, double seconds) {
+    must(world.set_linear_velocity(lift, vec(speed, 0, 0)));
+    std::vector<SensorEvent> seen;
+    run(world, seconds, kDt, [&] {
+      seen.insert(seen.end(), world.events().sensors.begin(), world.events().sensors.end());
+    });
+    return seen;
+  };
+  EXPECT_TRUE(moved(0, 1).empty());
+  const auto came = moved(3, 1);
+  ASSERT_EQ(came.size(), 1u);
+  EXPECT_EQ(came[0].kind, SensorEvent::Kind::Enter);
+  EXPECT_TRUE(moved(0, 1).empty());
+  EXPECT_FALSE(world.is_awake(lift));
+  EXPECT_EQ(listed(world), std::vector{expected});
+  // One that is built around it while it stands sees it as well.
+  const BodyId later = add_sensor(world, {0, 0.5, 0.2}, cube(0.5));
+  EXPECT_EQ(moved(0, 1).size(), 1u);
+  EXPECT_EQ(world.overlaps_of(collider_of(world, later)).size(), 1u);
+  const auto went = moved(3, 1);
+  ASSERT_EQ(went.size(), 2u);
+  EXPECT_EQ(went[0].kind, SensorEvent::Kind::Exit);
+  EXPECT_EQ(went[1].kind, SensorEvent::Kind::Exit);
+  EXPECT_TRUE(listed(world).empty());
+}
+
+// What a kinematic body carries to see the ground with.
+TEST(Overlaps, AMovedSensorSeesStaticBodies) {
+  PhysicsWorld world;
+  const BodyId wall = add(world, body_at(at(0, 0, 0), MotionType::Static), with(cube(0.5)));
+  const BodyId feeler = add_sensor(world, {-3, 0, 0}, cube(0.4), MotionType::Kinematic);
+  const BodyId fixed = add_sensor(world, {0.1, 0, 0}, cube(0.4));  // both never move
+  must(world.set_linear_velocity(feeler, vec(3, 0, 0)));
+  run(world, 1);
+  const SensorOverlap expected{collider_of(world, feeler), collider_of(world, wall)};
+  EXPECT_EQ(listed(world), std::vector{expected});
+  EXPECT_TRUE(world.overlaps_of(collider_of(world, fixed)).empty());
   run(world, 1);
   EXPECT_TRUE(listed(world).empty());
 }

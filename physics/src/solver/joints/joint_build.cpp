@@ -130,6 +130,38 @@ void build_block(const WorldState& world, JointBlock& block, std::uint32_t slot,
   note_rates(block, world);
 }
 
+// Whether a motor carries its joint on: what it moves does not rest, however slow it is. One that
+// is stalled, or a servo that has arrived, does not.
+bool is_driving(const JointBlock& block) {
+  for (int i = block.held; i < block.rows; ++i) {
+    const FreeRow& free = block.free[i - block.held];
+    const JointRow& row = block.row[i];
+    const Real size = is_linear(row.coordinate) ? block.size : Real(1);
+    if (free.motor && free.speed != Real(0)) {
+      const Real along = free.speed < Real(0) ? -row.rate : row.rate;
+      if (along >= std::min(joint_tolerance::kDrivenShare * std::abs(free.speed),
+                            joint_tolerance::kDrivenSizesPerSecond * size))
+        return true;
+    }
+    if (free.servo) {
+      const Real left = free.servo_target - row.value;
+      const Real along = left < Real(0) ? -row.rate : row.rate;
+      if (std::abs(left) > joint_tolerance::kArrived * size &&
+          along >= joint_tolerance::kDrivenShare * std::abs(left))
+        return true;
+    }
+  }
+  return false;
+}
+
+void keep_driven_awake(WorldState& world, const std::vector<JointBlock>& blocks) {
+  for (const JointBlock& block : blocks) {
+    if (!is_driving(block)) continue;
+    for (int k = 0; k < block.bodies; ++k)
+      if (block.moves[k]) world.substep[block.body[k]].driven = true;
+  }
+}
+
 }  // namespace
 
 void build_joints(WorldState& world) {
@@ -163,6 +195,7 @@ void build_joints(WorldState& world) {
                      build_block(world, scratch.blocks[p], scratch.active[scratch.order[p]],
                                  system.pieces[i]);
                });
+  keep_driven_awake(world, scratch.blocks);
   stiffen_taut_joints(world);
 }
 

@@ -75,6 +75,14 @@ inline constexpr Real kReach = Real(0.25);
 // substep [-].
 inline constexpr Real kBounceCut = Real(4);
 
+// A velocity motor drives as long as it reaches this part of its target [-] or, where that is more
+// than a slow motor gives, this many body sizes or radians a second [1/s]: below it is stalled. A
+// position motor drives as long as it closes that part of what is left in a second [1/s], until it
+// is as near as this [sizes or rad].
+inline constexpr Real kDrivenShare = Real(0.1);
+inline constexpr Real kDrivenSizesPerSecond = Real(1e-3);
+inline constexpr Real kArrived = Real(1e-3);
+
 // Cones narrower than this [rad] hold their axis outright: the direction of what is left is noise.
 inline constexpr Real kNarrowCone = Real(1e-3);
 
