@@ -31,15 +31,18 @@ void change_trees(WorldState& world, const BodyInfo& info) {
     ColliderInfo& collider = world.colliders.info[slot];
     const bool is_static = info.type == MotionType::Static;
     if (collider.is_static == is_static) continue;
-    (collider.is_static ? world.static_tree : world.moving_tree).remove(collider.proxy);
+    world.trees.of(collider).remove(collider.proxy);
     collider.proxy = AabbTree::kNull;
     collider.is_static = is_static;
+    collider.asleep = false;
   }
 }
 
 void change_motion_type(WorldState& world, std::uint32_t body, MotionType type) {
   wake_with_neighbours(world, body);
   BodyInfo& info = world.bodies.info[body];
+  if (info.type == MotionType::Kinematic) --world.counts.kinematic;
+  if (type == MotionType::Kinematic) ++world.counts.kinematic;
   info.type = type;
   info.rest_time = 0;
   info.acceleration = {0, 0, 0};

@@ -89,8 +89,7 @@ PosVec update_reach(WorldState& world, std::uint32_t slot) {
 bool leaves_proxy(WorldState& world, std::uint32_t slot) {
   const ColliderInfo& collider = world.colliders.info[slot];
   update_reach(world, slot);
-  const AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
-  return !contains(tree.box(collider.proxy), world.reach[slot]);
+  return !contains(world.trees.of(collider).box(collider.proxy), world.reach[slot]);
 }
 
 void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
@@ -99,7 +98,7 @@ void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
 
 void give_proxy(WorldState& world, std::uint32_t slot) {
   ColliderInfo& collider = world.colliders.info[slot];
-  AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
+  AabbTree& tree = world.trees.of(collider);
   const Reach reach = reach_in_next_step(world, collider);
   if (world.reach.size() <= slot) world.reach.resize(slot + 1);
   world.reach[slot] = reach.box;
@@ -165,10 +164,9 @@ void find_pairs(WorldState& world) {
         const std::uint64_t key = pair_key(slot, other);
         if (!world.pairs.contains(key)) keys.push_back(key);
       };
-      const WorldAabb& box =
-          (collider.is_static ? world.static_tree : world.moving_tree).box(collider.proxy);
-      world.moving_tree.query(box, meet);
-      if (!collider.is_static) world.static_tree.query(box, meet);
+      const WorldAabb& box = world.trees.of(collider).box(collider.proxy);
+      world.trees.query_movable(box, meet);
+      if (!collider.is_static) world.trees.of_static.query(box, meet);
     }
   });
   world.new_keys.clear();

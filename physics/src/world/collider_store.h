@@ -14,7 +14,8 @@ namespace plumb::inline PLUMB_ABI::detail {
 struct ColliderInfo {
   std::uint32_t generation = 0;
   bool alive = false;
-  bool is_static = false;  // which of the two trees it is in
+  bool is_static = false;  // of a static body
+  bool asleep = false;     // of a body in a sleeping island
   std::uint32_t body = 0;  // slot
   std::int32_t proxy = AabbTree::kNull;
   bool query_pairs = false;  // its box grew since pairs were last sought
@@ -22,6 +23,33 @@ struct ColliderInfo {
   CollisionShape shape;
   Transform in_body;   // shape placed relative to the centre of mass, principal axes
   Real thickness = 0;  // [m]
+};
+
+// The boxes of all colliders, in three trees: a step refits only that of what moves, and its
+// queries pass over the others quickly however much lies in them.
+struct ColliderTrees {
+  AabbTree of_static, of_moving, of_sleeping;
+
+  [[nodiscard]] AabbTree& of(const ColliderInfo& collider) {
+    return collider.is_static ? of_static : collider.asleep ? of_sleeping : of_moving;
+  }
+  [[nodiscard]] const AabbTree& of(const ColliderInfo& collider) const {
+    return collider.is_static ? of_static : collider.asleep ? of_sleeping : of_moving;
+  }
+  // visit(slot) for the colliders of bodies that are not static.
+  template <class Visit>
+  void query_movable(const WorldAabb& box, Visit&& visit) const {
+    of_moving.query(box, visit);
+    of_sleeping.query(box, visit);
+  }
+  // Into the tree of what sleeps, or back.
+  void set_asleep(ColliderInfo& collider, std::uint32_t slot, bool asleep) {
+    if (collider.is_static || collider.asleep == asleep) return;
+    const WorldAabb box = of(collider).box(collider.proxy);
+    of(collider).remove(collider.proxy);
+    collider.asleep = asleep;
+    collider.proxy = of(collider).insert(box, slot);
+  }
 };
 
 class ColliderStore {

@@ -24,6 +24,7 @@
 
 #include "motion/body_motion.h"
 #include "world/body_sweep.h"
+#include "world/far_movers.h"
 #include "world/one_way.h"
 #include "world/tolerances.h"
 
@@ -104,50 +105,6 @@ SweptShape on_path(const ColliderInfo& collider, const Path& path) {
 
 // ---- which bodies -------------------------------------------------------------------------------
 
-// Farthest point of a body from its centre that a turn carries along: a ball about the centre turns
-// on the spot.
-Real turning_radius(const WorldState& world, const BodyInfo& info) {
-  Real farthest = 0;
-  for (const std::uint32_t slot : info.colliders) {
-    const ColliderInfo& collider = world.colliders.info[slot];
-    if (collider.component.is_sensor) continue;
-    farthest = std::max(farthest, length(collider.in_body.p) + bounding_radius(collider.shape) -
-                                      collider.shape.radius);
-  }
-  return farthest;
-}
-
-bool moved_far(const WorldState& world, std::uint32_t dense) {
-  const BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
-  const Real path = length_squared(world.delta[dense].dp);
-  const Real spin = world.dt * world.dt * length_squared(world.bodies.velocity[dense].w);
-  const Real limit = tolerance::kContinuousFraction * info.size;
-  // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
-  if (!(Real(2) * (path + spin * info.radius * info.radius) > limit * limit)) return false;
-  if (!(limit > Real(0)) || info.disabled) return false;
-  return std::sqrt(path) + std::sqrt(spin) * turning_radius(world, info) > limit;
-}
-
-// Slots of awake bodies that moved far, ascending.
-StepList<std::uint32_t> bodies_that_moved_far(WorldState& world) {
-  const BodyStore& bodies = world.bodies;
-  const std::uint32_t count = bodies.awake_end - bodies.awake_begin;
-  const std::uint32_t chunks = (count + tolerance::kBodyGrain - 1) / tolerance::kBodyGrain;
-  std::vector<std::vector<std::uint32_t>>& found = world.fast_by_chunk;
-  if (found.size() < chunks) found.resize(chunks);
-  parallel_for(world, count, tolerance::kBodyGrain, [&](std::uint32_t begin, std::uint32_t end) {
-    std::vector<std::uint32_t>& list = found[begin / tolerance::kBodyGrain];
-    list.clear();
-    for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end; ++i)
-      if (moved_far(world, i)) list.push_back(bodies.slot_of[i]);
-  });
-  StepList<std::uint32_t> all(&world.memory);
-  for (std::uint32_t c = 0; c < chunks; ++c)
-    all.insert(all.end(), found[c].begin(), found[c].end());
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
 WorldAabb ball_at(PosVec centre, Num radius) {
   const auto r = static_cast<PosReal>(radius);
   return {centre - PosVec{r, r, r}, centre + PosVec{r, r, r}};
@@ -205,10 +162,11 @@ StepList<Mover> movers_of(WorldState& world) {
     for (const std::uint32_t slot : world.bodies.info[body].colliders) {
       const ColliderInfo& own = world.colliders.info[slot];
       if (own.component.is_sensor) continue;
-      along_path(world.moving_tree, own, path, start, 0, [&](std::uint32_t other) {
+      along_path(world.trees.of_moving, own, path, start, 0, [&](std::uint32_t other) {
         const ColliderInfo& collider = world.colliders.info[other];
-        if (collider.component.is_sensor || !is_dynamic(world, collider.body)) return;
-        if (!world.bodies.is_awake(collider.body) || !may_meet(world, slot, other)) return;
+        if (collider.component.is_sensor || !is_dynamic(world, collider.body) ||
+            !world.bodies.is_awake(collider.body) || !may_meet(world, slot, other))
+          return;
         if (runs_into(world, body, collider.body)) dynamic.push_back(collider.body);
       });
     }
@@ -237,7 +195,6 @@ std::uint32_t mover_of(const StepList<Mover>& movers, std::uint32_t body) {
 struct Follower {
   const WorldState& world;
   const StepList<Mover>& movers;
-  bool any_kinematic;  // in this world
   FastOthers& fast_others;
 
   // The first collider met on a path from `begin` on. `passed` is a body that does not count.
@@ -263,9 +220,11 @@ struct Follower {
         }
         obstacles.push_back(other);
       };
-      along_path(world.static_tree, own, path, mover.start, begin, consider);
-      if (any_kinematic || info.continuous)
-        along_path(world.moving_tree, own, path, mover.start, begin, consider);
+      along_path(world.trees.of_static, own, path, mover.start, begin, consider);
+      if (world.counts.kinematic > 0 || info.continuous)
+        along_path(world.trees.of_moving, own, path, mover.start, begin, consider);
+      if (info.continuous)
+        along_path(world.trees.of_sleeping, own, path, mover.start, begin, consider);
       std::sort(obstacles.begin(), obstacles.end());  // not in the order of the tree
       for (const std::uint32_t other : obstacles) {
         const ColliderInfo& collider = world.colliders.info[other];
@@ -480,16 +439,12 @@ void stop_body(WorldState& world, const Mover& mover) {
 void stop_fast_bodies(WorldState& world) {
   StepList<Mover> movers = movers_of(world);
   if (movers.empty()) return;
-  const bool any_kinematic =
-      std::any_of(world.bodies.info.begin(), world.bodies.info.end(),
-                  [](const BodyInfo& b) { return b.alive && b.type == MotionType::Kinematic; });
   const auto count = static_cast<std::uint32_t>(movers.size());
-  const std::uint32_t chunks = count / tolerance::kSweepGrain + 1;
   std::vector<FastOthers>& found = world.fast_others_by_chunk;
-  if (found.size() < chunks) found.resize(chunks);
+  found.resize(std::max<std::size_t>(found.size(), count / tolerance::kSweepGrain + 1));
   for (FastOthers& chunk : found) chunk.clear();
   parallel_for(world, count, tolerance::kSweepGrain, [&](std::uint32_t begin, std::uint32_t end) {
-    Follower follower{world, movers, any_kinematic, found[begin / tolerance::kSweepGrain]};
+    Follower follower{world, movers, found[begin / tolerance::kSweepGrain]};
     for (std::uint32_t i = begin; i < end; ++i) follower.follow(movers[i]);
   });
   meet_one_another(world, movers);

@@ -97,6 +97,8 @@ void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
     info.island = index;
     info.acceleration = {0, 0, 0};
     world.bodies.rest(body);
+    for (const std::uint32_t slot : info.colliders)
+      world.trees.set_asleep(world.colliders.info[slot], slot, true);
     world.gathering.sleep.push_back({{body, info.generation}, true});
   }
 }
@@ -149,6 +151,7 @@ void wake_body(WorldState& world, std::uint32_t body) {
     world.gathering.sleep.push_back({{member, sleeper.generation}, false});
     for (const std::uint32_t collider : sleeper.colliders) {
       ColliderInfo& c = world.colliders.info[collider];
+      world.trees.set_asleep(c, collider, false);
       if (!c.query_pairs) {
         c.query_pairs = true;
         world.query_list.push_back(collider);
@@ -165,8 +168,8 @@ void wake_around(WorldState& world, std::uint32_t body) {
   for (const std::uint32_t slot : world.bodies.info[body].colliders) {
     const ColliderInfo& collider = world.colliders.info[slot];
     if (collider.proxy == AabbTree::kNull) continue;
-    const AabbTree& tree = collider.is_static ? world.static_tree : world.moving_tree;
-    world.moving_tree.query(tree.box(collider.proxy), [&](std::uint32_t other) {
+    const WorldAabb& box = world.trees.of(collider).box(collider.proxy);
+    world.trees.query_movable(box, [&](std::uint32_t other) {
       const ColliderInfo& met = world.colliders.info[other];
       if (met.body == body) return;
       // A kinematic body at rest is in no island: only a sensor has to find it again.

@@ -194,8 +194,8 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
   const ColliderInfo& a = world.colliders.info[slot_a];
   const ColliderInfo& b = world.colliders.info[slot_b];
   if (!meet) {
-    const WorldAabb& box_a = (a.is_static ? world.static_tree : world.moving_tree).box(a.proxy);
-    const WorldAabb& box_b = (b.is_static ? world.static_tree : world.moving_tree).box(b.proxy);
+    const WorldAabb& box_a = world.trees.of(a).box(a.proxy);
+    const WorldAabb& box_b = world.trees.of(b).box(b.proxy);
     // A sensor that came to rest goes on seeing what sleeps in it.
     found.overlaps = pair.sensor && pair.touching && !some_awake;
     found.gone = !overlaps(box_a, box_b) || (!some_awake && !found.overlaps);

@@ -235,6 +235,7 @@ bool restore_bodies(const Snapshot& in, WorldState& world) {
       bodies.velocity[dense] = velocity;
       bodies.momentum[dense] = momentum;
       if (awake) bodies.wake(made);
+      if (info.type == MotionType::Kinematic) ++world.counts.kinematic;
     }
   }
   for (std::uint32_t slot = 0; slot < count; ++slot) {
@@ -265,8 +266,10 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
           !check_shape(info.component.shape).ok() || !check_local_pose(info.component.pose).ok())
         return false;
       info.shape = make_collision_shape(info.component.shape);
-      info.proxy = (info.is_static ? world.static_tree : world.moving_tree)
-                       .insert(box, static_cast<std::uint32_t>(slot));
+      const BodyInfo& owner = world.bodies.info[info.body];
+      info.asleep =
+          owner.type == MotionType::Dynamic && !owner.disabled && !world.bodies.is_awake(info.body);
+      info.proxy = world.trees.of(info).insert(box, static_cast<std::uint32_t>(slot));
       count_collider(world.counts, info.component, 1);
     }
     world.colliders.info.push_back(std::move(info));
@@ -428,8 +431,7 @@ void PhysicsWorld::save(Snapshot& snapshot) const {
     TableWriter table(out, "collider", world.colliders.info.size());
     for (ColliderInfo& info : world.colliders.info) {
       ShapeNumbers shape = numbers_of(info.component.shape, hulls, geometries);
-      const AabbTree& tree = info.is_static ? world.static_tree : world.moving_tree;
-      WorldAabb box = info.alive ? tree.box(info.proxy) : WorldAabb{};
+      WorldAabb box = info.alive ? world.trees.of(info).box(info.proxy) : WorldAabb{};
       table.next_row();
       visit_collider(table, info, shape, box);
     }

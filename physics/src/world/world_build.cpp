@@ -20,7 +20,7 @@ void remove_collider(WorldState& world, std::uint32_t slot) {
     note_pair_end(world, pair);
     return true;
   });
-  (collider.is_static ? world.static_tree : world.moving_tree).remove(collider.proxy);
+  world.trees.of(collider).remove(collider.proxy);
   std::erase(owner.colliders, slot);
   std::erase_if(owner.collider_ids, [slot](ColliderId id) { return id.index == slot; });
   std::erase(world.query_list, slot);
@@ -51,6 +51,7 @@ Created<BodyId> PhysicsWorld::create_body(const RigidBody& body) {
   detail::BodyInfo& info = world.bodies.info[slot];
   const std::uint32_t dense = info.dense;
   info.type = body.type;
+  if (body.type == MotionType::Kinematic) ++world.counts.kinematic;
   info.locks = body.locks;
   info.can_sleep = body.can_sleep;
   info.continuous = body.continuous;
@@ -98,6 +99,7 @@ Status PhysicsWorld::destroy_body(BodyId body) {
   const std::vector<std::uint32_t> colliders = world.bodies.info[slot].colliders;
   for (const std::uint32_t collider : colliders) detail::remove_collider(world, collider);
   world.contact_data.excluded_bodies.forget(slot);
+  if (world.bodies.info[slot].type == MotionType::Kinematic) --world.counts.kinematic;
   std::erase(world.moved, slot);
   world.bodies.destroy(slot);
   return {};
@@ -132,6 +134,7 @@ Created<ColliderId> PhysicsWorld::create_collider(BodyId body, const Collider& c
   if (owner.island != detail::kNone &&
       (!world.islands[owner.island].pairs.empty() || world.islands[owner.island].bodies.size() > 1))
     detail::wake_body(world, body.index);
+  info.asleep = owner.island != detail::kNone;
   if (owner.has_own_mass || collider.is_sensor || collider.density == 0) {
     detail::update_collider_frames(world, body.index);
   } else {

@@ -72,9 +72,10 @@ class View {
   }
   [[nodiscard]] PosVec reference() const { return reference_; }
   template <class Walk>
-  void for_both_trees(Walk&& walk) const {
-    walk(state_.static_tree);
-    walk(state_.moving_tree);
+  void for_all_trees(Walk&& walk) const {
+    walk(state_.trees.of_static);
+    walk(state_.trees.of_moving);
+    walk(state_.trees.of_sleeping);
   }
 
  private:
@@ -115,7 +116,7 @@ void walk_ray(const View& view, const Ray& ray, Found&& found) {
           std::min(reach, found(FoundHit{hit.fraction, slot, hit.normal, hit.fraction * path, 0}));
     return reach;
   };
-  view.for_both_trees([&](const AabbTree& tree) {
+  view.for_all_trees([&](const AabbTree& tree) {
     if (reach > PosReal(0)) tree.cast_ray(view.reference(), cast<PosReal>(path), reach, visit);
   });
 }
@@ -201,7 +202,7 @@ void walk_cast(const View& view, const ShapeCast& given, Found&& found) {
     }
     return reach = std::min(reach, found(hit));
   };
-  view.for_both_trees(
+  view.for_all_trees(
       [&](const AabbTree& tree) { tree.cast_box(box, cast<PosReal>(sweep.travel), reach, visit); });
 }
 
@@ -251,7 +252,7 @@ void walk_gaps(const View& view, const Placed& own, const WorldAabb& box, Real m
     if (gap.distance <= farthest) reach = std::min(reach, found(FoundGap{gap.distance, slot, gap}));
     return reach + slack;
   };
-  view.for_both_trees([&](const AabbTree& tree) { tree.nearest(box, reach + slack, visit); });
+  view.for_all_trees([&](const AabbTree& tree) { tree.nearest(box, reach + slack, visit); });
 }
 
 ClosestPointResult gap_result(const View& view, const FoundGap& found) {
@@ -402,7 +403,7 @@ void PhysicsWorld::overlap_shape(const Shape& shape, const Pose& pose, std::vect
       out.push_back(view.id(slot));
   };
   const WorldAabb box = own.bounds(view.reference());
-  view.for_both_trees([&](const AabbTree& tree) { tree.query(box, visit); });
+  view.for_all_trees([&](const AabbTree& tree) { tree.query(box, visit); });
   std::sort(out.begin(), out.end());
 }
 
@@ -457,7 +458,7 @@ void PhysicsWorld::overlap_bounds(const Bounds& box, std::vector<ColliderId>& ou
                            pose.x + detail::cast<PosReal>(tight.upper)};
     if (overlaps(sought, bounds) && view.accepts(slot)) out.push_back(view.id(slot));
   };
-  view.for_both_trees([&](const AabbTree& tree) { tree.query(sought, visit); });
+  view.for_all_trees([&](const AabbTree& tree) { tree.query(sought, visit); });
   std::sort(out.begin(), out.end());
 }
 void PhysicsWorld::overlap_bounds(const Bounds& box, std::vector<ColliderId>& out,

@@ -72,6 +72,7 @@ struct StepFlags {
 // Counts by which the plan knows what a scene calls for; kept up to date when bodies and colliders
 // come, go and change, so that planning a step takes a few integer tests.
 struct SceneCounts {
+  std::uint32_t kinematic = 0;  // bodies
   std::uint32_t sensors = 0;
   std::uint32_t restitution = 0;  // colliders with restitution > 0
   std::uint32_t turning = 0;      // ... with rolling or torsional friction
@@ -105,7 +106,7 @@ struct WorldState {
   WorldSettings settings;
   BodyStore bodies;
   ColliderStore colliders;
-  AabbTree static_tree, moving_tree;
+  ColliderTrees trees;
   std::vector<WorldAabb> reach;  // per collider slot: all its places in the next step
   PairStore pairs;
   std::vector<Contact> contacts;   // of the awake pairs, in their order

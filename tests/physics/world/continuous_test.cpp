@@ -215,6 +215,29 @@ TEST(Continuous, FlaggedBodiesDoNotPassOneAnother) {
   }
 }
 
+// What sleeps lies in a tree of its own; a flagged body is stopped by it, and wakes it.
+TEST(Continuous, AFlaggedBulletIsStoppedByASleeper) {
+  Random random(17);
+  for (int i = 0; i < 100; ++i) {
+    PhysicsWorld world;
+    add_floor(world);
+    const BodyId panel = add(world, body_at(at(0, 0.5, 0)), with(box(0.02, 0.5, 2)));
+    run(world, 2);
+    ASSERT_FALSE(world.is_awake(panel));
+    RigidBody bullet =
+        moving(at(-random.uniform(1, 20), random.uniform(0.1, 0.9), 0),
+               vec(random.uniform(200, 900), 0, 0), vec(random.uniform(0, 50), 0, 0));
+    bullet.continuous = true;
+    bullet.gravity_scale = 0;
+    const BodyId b = add(world, bullet, with(sphere(0.01)));
+    for (int k = 0; k < 12 && !world.is_awake(panel); ++k) {
+      world.step(kDt);
+      ASSERT_LT(position(world, b).x(), 0) << "shot " << i;
+    }
+    EXPECT_TRUE(world.is_awake(panel)) << "shot " << i;
+  }
+}
+
 // A train of flagged bullets: the first stops at the wall, the others at those before them.
 TEST(Continuous, ATrainOfFlaggedBulletsKeepsItsOrder) {
   PhysicsWorld world(no_gravity());

@@ -1,0 +1,56 @@
+#include "world/far_movers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "world/tolerances.h"
+
+namespace plumb::inline PLUMB_ABI::detail {
+namespace {
+
+// Farthest point of a body from its centre that a turn carries along: a ball about the centre turns
+// on the spot.
+Real turning_radius(const WorldState& world, const BodyInfo& info) {
+  Real farthest = 0;
+  for (const std::uint32_t slot : info.colliders) {
+    const ColliderInfo& collider = world.colliders.info[slot];
+    if (collider.component.is_sensor) continue;
+    farthest = std::max(farthest, length(collider.in_body.p) + bounding_radius(collider.shape) -
+                                      collider.shape.radius);
+  }
+  return farthest;
+}
+
+bool moved_far(const WorldState& world, std::uint32_t dense) {
+  const BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
+  const Real path = length_squared(world.delta[dense].dp);
+  const Real spin = world.dt * world.dt * length_squared(world.bodies.velocity[dense].w);
+  const Real limit = tolerance::kContinuousFraction * info.size;
+  // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
+  if (!(Real(2) * (path + spin * info.radius * info.radius) > limit * limit)) return false;
+  return limit > Real(0) && !info.disabled &&
+         std::sqrt(path) + std::sqrt(spin) * turning_radius(world, info) > limit;
+}
+
+}  // namespace
+
+StepList<std::uint32_t> bodies_that_moved_far(WorldState& world) {
+  const BodyStore& bodies = world.bodies;
+  const std::uint32_t count = bodies.awake_end - bodies.awake_begin;
+  const std::uint32_t chunks = (count + tolerance::kBodyGrain - 1) / tolerance::kBodyGrain;
+  std::vector<std::vector<std::uint32_t>>& found = world.fast_by_chunk;
+  if (found.size() < chunks) found.resize(chunks);
+  parallel_for(world, count, tolerance::kBodyGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    std::vector<std::uint32_t>& list = found[begin / tolerance::kBodyGrain];
+    list.clear();
+    for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end; ++i)
+      if (moved_far(world, i)) list.push_back(bodies.slot_of[i]);
+  });
+  StepList<std::uint32_t> all(&world.memory);
+  for (std::uint32_t c = 0; c < chunks; ++c)
+    all.insert(all.end(), found[c].begin(), found[c].end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace plumb::inline PLUMB_ABI::detail
