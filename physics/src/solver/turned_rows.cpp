@@ -149,7 +149,7 @@ bool find_spun_bodies(WorldState& world) {
   bool any = false;
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
     SubstepBody& s = world.substep[i];
-    if (!s.constrained || s.jointed || s.turned || s.spun) continue;
+    if (!s.constrained || s.split || s.turned || s.spun) continue;
     const Vec w = world.bodies.velocity[i].w;
     const BodyMass& mass = world.bodies.mass[i];
     if (!(world.dt * length(w) > tolerance::kFastTurn) || is_isotropic(mass)) continue;

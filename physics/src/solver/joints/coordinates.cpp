@@ -8,6 +8,11 @@ namespace {
 constexpr Real kTwoPi = Real(6.283185307179586476925);
 // Below this, relative to unit vectors, a direction is not defined and any will do [-].
 constexpr Real kNoDirection = Real(1e-6);
+// Sine of half a turn [-] up to which its rotation vector is twice the sine: to 2e-7 of it.
+constexpr Real kSmallTurn = Real(1e-3);
+// 1 + the cosine of a swing [-] below which the twist about it loses hold: from 168 degrees on a
+// turn of the body hardly tells which part of it is twist, and its gradient would grow without end.
+constexpr Real kLeastTwist = Real(0.02);
 
 Vec unit(int i) {
   return {i == 0 ? Real(1) : Real(0), i == 1 ? Real(1) : Real(0), i == 2 ? Real(1) : Real(0)};
@@ -69,6 +74,20 @@ Vec gradient_of(const Swing& s, const PlacedPair& at) {
          (s.angle * e) * axis(at.frame_a, s.k);
 }
 
+// The rotation vector that takes A's axes to B's, in the axes of A, and k of its gradient.
+struct WholeTurn {
+  Vec r;   // [rad]
+  Real k;  // [-]
+};
+WholeTurn turn_of(const PlacedPair& at) {
+  const Rotation q = relative(at);
+  const Vec v{q.x, q.y, q.z};
+  const Real sine = length(v);
+  if (!(sine > kSmallTurn)) return {Real(2) * v, Real(1) / Real(12)};
+  const Real half = arc_tangent(sine, q.w);
+  return {(Real(2) * half / sine) * v, (Real(1) - half * q.w / sine) / (Real(4) * half * half)};
+}
+
 }  // namespace
 
 PlacedPair place_pair(const FramePair& pair, const Moved& a, const Moved& b) {
@@ -102,6 +121,12 @@ Real coordinate_of(Coordinate coordinate, const PlacedPair& at, Real last_angle)
       return Real(2) * relative(at).y;
     case Coordinate::TurnZ:
       return Real(2) * relative(at).z;
+    case Coordinate::RotationX:
+      return turn_of(at).r.x;
+    case Coordinate::RotationY:
+      return turn_of(at).r.y;
+    case Coordinate::RotationZ:
+      return turn_of(at).r.z;
     case Coordinate::Twist: {
       const Rotation q = relative(at);
       const Real angle = Real(2) * arc_tangent(q.x, q.w);
@@ -167,13 +192,21 @@ void gradient_of(Coordinate coordinate, const PlacedPair& at, BodyJacobian& a, B
       g = rotate(at.frame_a, q.w * e + cross(Vec{q.x, q.y, q.z}, e));
       break;
     }
+    case Coordinate::RotationX:
+    case Coordinate::RotationY:
+    case Coordinate::RotationZ: {
+      const WholeTurn turn = turn_of(at);
+      const Vec e = unit(index_after(coordinate, Coordinate::RotationX));
+      const Vec across = cross(turn.r, e);
+      g = rotate(at.frame_a, e + Real(0.5) * across + turn.k * cross(turn.r, across));
+      break;
+    }
     case Coordinate::Twist:
     case Coordinate::TwistY:
     case Coordinate::TwistZ: {
       const int i = index_after(coordinate, Coordinate::Twist);
       const Vec x = axis(at.frame_a, i), x_b = axis(at.frame_b, i);
-      const Real c = Real(1) + dot(x, x_b);
-      g = c > kNoDirection ? (Real(1) / c) * (x + x_b) : x;
+      g = (Real(1) / std::max(Real(1) + dot(x, x_b), kLeastTwist)) * (x + x_b);
       break;
     }
     case Coordinate::AxisXAboutY:

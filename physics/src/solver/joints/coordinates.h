@@ -9,6 +9,8 @@
 //   Axis e      e . r, r the turn without twist from x to x'  e + (a cot a - 1) e.p p - a e.q x,
 //                                                             p, q: unit, across x; a = |r|
 //   Turn e      2 e . vec(q)           w . (q_w e + vec(q) x e), q = R_A^-1 R_B with q_w >= 0
+//   Rotation e  e . r, r = a u the turn from A to B     w . (e + r x e / 2 + k r x (r x e)),
+//                                                       k = (1 - (a/2) cot(a/2)) / a^2
 //   Twist       2 atan2(q_x, q_w)      w . (x + x') / (1 + x . x')
 //   Cone        atan2(|x x x'|, x.x')  w . (x x x') / |x x x'|
 //   Rate e      none                   w . e

@@ -30,6 +30,10 @@ enum class Coordinate : std::uint8_t {
   TurnX,  // twice the vector part of the relative quaternion, along the axes of A
   TurnY,
   TurnZ,
+  RotationX,  // the relative rotation vector, along the axes of A: the same, but good to half a
+              // turn
+  RotationY,
+  RotationZ,
   Twist,   // angle about x, whole turns counted
   TwistY,  // about y and z, within half a turn
   TwistZ,
@@ -87,6 +91,7 @@ struct JointRow {
   bool may_bounce = false;  // it has restitution, and no limit pushed in the last substep
   RowImpulses impulses;
   RowImpulses kept;          // before the last of Newton's steps
+  RowImpulses begun;         // before the first
   Real sum[kRowParts] = {};  // [N s] over the step
 };
 

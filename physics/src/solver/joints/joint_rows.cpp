@@ -1,5 +1,9 @@
 #include "solver/joints/joint_rows.h"
 
+#include <cmath>
+
+#include "solver/joints/joint_tolerances.h"
+
 namespace plumb::inline PLUMB_ABI::detail {
 
 FreeRow& RowBuilder::add_free(Coordinate coordinate) {
@@ -27,6 +31,16 @@ void RowBuilder::hold(Coordinate coordinate, Real target) {
   row.hold_frequency = softness_.frequency;
   row.hold_damping_ratio = softness_.damping_ratio;
   block_.row[block_.rows - 1].needs_value = true;
+}
+
+void RowBuilder::hold_attitude() {
+  // Twice the vector part of the quaternion says less and less of a turn: its gradient is gone at
+  // half of one, where bodies that others force apart may come. Far off the rotation vector serves.
+  const FramePair& pair = block_.pair[0];
+  const Rotation q = conjugate(pair.frame_a) * pair.frame_b;
+  const bool far = std::abs(q.w) < joint_tolerance::kNearHalfCosine;
+  const Coordinate first = far ? Coordinate::RotationX : Coordinate::TurnX;
+  for (int i = 0; i < 3; ++i) hold(static_cast<Coordinate>(static_cast<int>(first) + i));
 }
 
 void set_limit(FreeRow& row, const JointLimit& limit) {

@@ -15,6 +15,8 @@ class RowBuilder {
   // Holds a coordinate at `target`: rigidly, or by the joint's own spring when it is soft. All
   // calls come before the first leave().
   void hold(Coordinate coordinate, Real target = Real(0));
+  // Holds B's attitude to that of A.
+  void hold_attitude();
   // Leaves a coordinate free but for what acts along it.
   FreeRow& leave(Coordinate coordinate, const JointAxis& axis);
   // Bounded friction against turning, the same in every direction.

@@ -37,35 +37,58 @@ class PieceSolver {
       : world_(world), scratch_(*world.joints.scratch), piece_(piece), pass_(pass), h_(piece.h) {}
 
   void run() {
-    const bool solving = pass_ == JointPass::Solve;
-    bool clamped = false;
-    int arrived = 0;  // steps since a law last hit its bound that saw where coordinates arrive
-    Real before = 0;
-    linear_ = true;
-    for (int step = 0; step < joint_tolerance::kMostNewtonSteps; ++step) {
-      const bool changed = choose_laws(!clamped) || step == 0;
-      if (arrived > 0 && !changed && !clamped) {
-        if (!solving || error_ <= joint_tolerance::kClosed) return;
-        // Newton's method has come too far from where it began: turns by more than a radian in a
-        // substep. The step before is taken back; what is left loses energy, but never gains it.
-        if (arrived > (stiff_ ? 0 : 1) && error_ > before) return take_back();
-        if (arrived > 1 && error_ > joint_tolerance::kSlowStep * before) return;
-      }
-      before = error_;
-      if (solving && !linear_) remember();
-      if (changed) factor_piece(scratch_.system, scratch_.blocks, piece_);
-      find_impulses();
-      clamped = give_impulses();
-      if (!has_laws_ && !solving) return;
-      // Where an impulse was cut off the held rows are yet to follow: such velocities say nothing
-      // about where coordinates arrive.
-      arrived = clamped || (solving && linear_) ? 0 : arrived + 1;
-      linear_ = clamped;
+    if (pass_ == JointPass::Relax) {
+      search(false);
+      return;
     }
-    if (clamped) hold_only();
+    remember(&JointRow::begun);
+    if (search(true)) return;
+    take_back(&JointRow::begun);
+    search(false);
   }
 
  private:
+  // Newton's steps. `ahead`: held rows and springs are to be right where their bodies will have
+  // turned to at the end of the substep; else at the present rates, which only projects velocities.
+  // Returns false where looking ahead came to nothing: bodies turn by more than a radian in the
+  // substep, laws let go and grip again, and in the end all is farther off than it was.
+  bool search(bool ahead) {
+    ahead_ = ahead;
+    bool clamped = false;
+    int arrived = 0;  // steps since a law last hit its bound that saw where coordinates arrive
+    Real before = 0, first = kUnlimited;
+    linear_ = true;
+    for (int step = 0; step < joint_tolerance::kMostNewtonSteps; ++step) {
+      const bool changed = choose_laws(!clamped) || step == 0;
+      if (ahead && !linear_) first = std::min(first, std::max(error_, joint_tolerance::kFarOff));
+      if (arrived > 0 && !changed && !clamped) {
+        if (!ahead || error_ <= joint_tolerance::kClosed) return true;
+        // Newton's method has come too far from where it began: turns by more than a radian in a
+        // substep. The step before is taken back; what is left loses energy, but never gains it.
+        if (arrived > (stiff_ ? 0 : 1) && error_ > before) {
+          take_back(&JointRow::kept);
+          return true;
+        }
+        if (arrived > 1 && error_ > joint_tolerance::kSlowStep * before) return true;
+      }
+      before = error_;
+      if (ahead && !linear_) remember(&JointRow::kept);
+      if (changed) factor_piece(scratch_.system, scratch_.blocks, piece_);
+      find_impulses();
+      clamped = give_impulses();
+      if (!has_laws_ && !ahead) return true;
+      // Where an impulse was cut off the held rows are yet to follow: such velocities say nothing
+      // about where coordinates arrive.
+      arrived = clamped || (ahead && linear_) ? 0 : arrived + 1;
+      linear_ = clamped;
+    }
+    if (clamped) hold_only();
+    if (!ahead) return true;
+    linear_ = false;
+    choose_laws(false);
+    return error_ <= joint_tolerance::kAstray * first;
+  }
+
   struct Now {
     Real rate[kMaxJointRows] = {}, end[kMaxJointRows] = {};
   };
@@ -92,7 +115,7 @@ class PieceSolver {
       now.rate[i] = row_rate(block, i, u);
       now.end[i] = block.row[i].value + h_ * now.rate[i];
     }
-    if (linear_ || pass_ == JointPass::Relax) return now;
+    if (linear_ || !ahead_) return now;
     Moved moved[kMaxJointBodies];
     for (int k = 0; k < block.bodies; ++k) {
       if (block.body[k] == 0) continue;
@@ -187,7 +210,8 @@ class PieceSolver {
           // Rates while held rows do not hold say nothing about who wants in.
           if (!may_enter)
             in = laws[k].inside() && (rows[block.held + f].laws & 1u << laws[k].part) != 0;
-          if (!in) continue;
+          if (!in || !(laws[k].soft || rigid_laws_)) continue;
+          next.lack[laws[k].part] = laws[k].lack;
           if (laws[k].soft) {
             next.laws |= 1u << laws[k].part;
             G += 1 / static_cast<double>(laws[k].give);
@@ -213,25 +237,22 @@ class PieceSolver {
         SystemRow& row = rows[block.held + f];
         changed = changed || next.laws != row.laws;
         next.size = row.size;
+        next.rate = now.rate[block.held + f];
         row = next;
       }
     }
     return changed;
   }
 
-  // The laws are left as they are; what is held holds.
+  // What pushes, rubs and drives is left as it is; what is held holds, and springs follow.
   void hold_only() {
     linear_ = true;
+    rigid_laws_ = false;
     choose_laws(false);
-    for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
-      const JointBlock& block = scratch_.blocks[i];
-      SystemRow* rows = rows_of(i);
-      for (int k = block.held; k < block.rows; ++k) rows[k] = {};
-    }
     factor_piece(scratch_.system, scratch_.blocks, piece_);
     find_impulses();
-    has_laws_ = false;
     give_impulses();
+    rigid_laws_ = true;
   }
 
   void find_impulses() {
@@ -269,20 +290,20 @@ class PieceSolver {
       clamped = share_out(scratch_.blocks[i], rows_of(i)) || clamped;
     return clamped;
   }
-  void remember() {
+  void remember(RowImpulses JointRow::*as) {
     for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
       JointBlock& block = scratch_.blocks[i];
-      for (int k = 0; k < block.rows; ++k) block.row[k].kept = block.row[k].impulses;
+      for (int k = 0; k < block.rows; ++k) block.row[k].*as = block.row[k].impulses;
     }
   }
-  void take_back() {
+  void take_back(RowImpulses JointRow::*to) {
     for (std::uint32_t i = piece_.begin; i < piece_.end; ++i) {
       JointBlock& block = scratch_.blocks[i];
       Real l[kMaxJointRows];
       for (int k = 0; k < block.rows; ++k) {
         JointRow& row = block.row[k];
-        l[k] = total_impulse(row.kept, false) - total_impulse(row.impulses, false);
-        row.impulses = row.kept;
+        l[k] = total_impulse(row.*to, false) - total_impulse(row.impulses, false);
+        row.impulses = row.*to;
       }
       change(block, l);
     }
@@ -313,7 +334,10 @@ class PieceSolver {
         const Law& law = laws[k];
         const bool acted = (row.laws & 1u << law.part) != 0;
         if (law.soft && acted) {
-          clamped = give(law, law.impulse - law.lack / law.give) || clamped;
+          // What the system said. Asked where its body came in truth, after a turn by a good part
+          // of a radian, a spring would answer with more than it can take back.
+          const Real lack = row.lack[law.part] + (now.rate[block.held + f] - row.rate);
+          clamped = give(law, law.impulse - lack / law.give) || clamped;
         } else if (!acted && (law.impulse < law.lower || law.impulse > law.upper)) {
           give(law, law.impulse);  // the bounds have come closer since it was found
           clamped = true;
@@ -378,10 +402,12 @@ class PieceSolver {
   const JointPiece& piece_;
   JointPass pass_;
   Real h_;
-  bool linear_ = true;
+  bool ahead_ = false;  // at the end of the substep, else at the present rates
+  bool linear_ = true;  // the end of the substep by the present rates
   bool has_laws_ = false;
-  bool stiff_ = false;  // some spring acts like a rigid hold
-  Real error_ = 0;      // largest [-] by which a held coordinate will be off, in sizes or radians
+  bool rigid_laws_ = true;  // limits, motors and frictions take part
+  bool stiff_ = false;      // some spring acts like a rigid hold
+  Real error_ = 0;  // largest [-] by which a held coordinate will be off, in sizes or radians
 };
 
 }  // namespace

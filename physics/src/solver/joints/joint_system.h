@@ -26,6 +26,9 @@ struct SystemRow {
   double give = 0;    // C: compliance of what acts along the row
   double value = 0;   // r, then l
   double size = 0;    // of the diagonal before anything is eliminated
+  // [m/s] or [rad/s] as the laws were chosen: the row's rate, and by how much it misses each part.
+  Real rate = 0;
+  Real lack[kRowParts] = {};
 };
 
 // Joints that are solved together: a connected group, or one joint of a group that is too wide.

@@ -15,6 +15,11 @@ namespace plumb::inline PLUMB_ABI::detail::joint_tolerance {
 inline constexpr double kCompliance = 1e-11;
 inline constexpr double kLoopCompliance = 1e-5;
 
+// ... and of what acts along free coordinates: limits, motors and frictions. Near half a turn the
+// coordinates of a joint may all but coincide, and what their limits ask for contradict each other.
+// A limit gives way by this part of the speed at which it is hit, for one substep.
+inline constexpr double kLawCompliance = 1e-6;
+
 // How much friction against turning yields in one of Newton's steps where limits bound the turn
 // too, relative to what it can turn [-]. Five rows of three angles ask for rates that contradict
 // each other by round-off: this bounds the impulses at which they do. What is left goes in the next
@@ -53,6 +58,10 @@ inline constexpr Real kLeftOut = Real(0.05);
 // radians; when a step leaves more than kSlowStep of the error it is the last.
 inline constexpr Real kClosed = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-9);
 inline constexpr Real kSlowStep = Real(0.5);
+// ... and when all of them leave this many times what there was at best, or what is far off [-],
+// they are taken back.
+inline constexpr Real kAstray = Real(4);
+inline constexpr Real kFarOff = Real(0.01);
 
 // A group is factored as a whole as long as the squared lengths of its columns add up to no more
 // than this many a joint [-]: chains, trees and ragdolls have 1 to 10, a net of n by n joints n^2.
@@ -82,6 +91,10 @@ inline constexpr Real kBounceCut = Real(4);
 inline constexpr Real kDrivenShare = Real(0.1);
 inline constexpr Real kDrivenSizesPerSecond = Real(1e-3);
 inline constexpr Real kArrived = Real(1e-3);
+
+// Cosine of half the angle [-] up to which attitudes are held by twice the quaternion's vector
+// part: 0.5 rad.
+inline constexpr Real kNearHalfCosine = Real(0.969);
 
 // Cones narrower than this [rad] hold their axis outright: the direction of what is left is noise.
 inline constexpr Real kNarrowCone = Real(1e-3);

@@ -53,9 +53,10 @@ void make_rows(const SixDofJoint& joint, RowBuilder& rows) {
                               Coordinate::LinearZ,     Coordinate::Twist,
                               Coordinate::AxisXAboutY, Coordinate::AxisXAboutZ};
   choose_angles(joint, coordinate + kTwist);
-  for (int i = 0; i < 6; ++i)
-    if (joint.coordinates[static_cast<std::size_t>(i)].freedom == Freedom::Locked)
-      rows.hold(coordinate[i]);
+  const bool attitude = coordinate[kTwist] == Coordinate::TurnX;  // all three angles are locked
+  for (std::size_t i = 0; i < (attitude ? kTwist : std::size_t{6}); ++i)
+    if (joint.coordinates[i].freedom == Freedom::Locked) rows.hold(coordinate[i]);
+  if (attitude) rows.hold_attitude();
   for (int i = 0; i < 6; ++i) {
     const SixDofJoint::Coordinate& c = joint.coordinates[static_cast<std::size_t>(i)];
     if (c.freedom == Freedom::Locked) continue;
