@@ -117,6 +117,24 @@ inline std::shared_ptr<const HeightfieldGeometry> field(
   return result.field;
 }
 
+// One plane cut in many ways, from -10 to 120 m along x and 20 m to both sides, at height 0.
+struct FlatGround {
+  const char* name;
+  Shape shape;
+  Vector3d origin{0, 0, 0};
+};
+inline std::vector<FlatGround> flat_grounds() {
+  const auto mesh = [](int nx, int nz) {
+    return SurfaceMesh{made(grid(-10, 120, -20, 20, nx, nz, level, true))};
+  };
+  return {
+      {"two triangles", mesh(1, 1)},
+      {"1e4 triangles", mesh(130, 40)},
+      {"slivers across", mesh(2000, 1)},
+      {"slivers along", mesh(1, 2000)},
+      {"heightfield", Heightfield{field(131, 41, 1, [](int, int) { return 0.0; })}, {-10, 0, -20}}};
+}
+
 inline CompoundGeometry::Child child(const Shape& shape, const Vector3d& at,
                                      const Quat& q = Quat::Identity()) {
   return {shape, {at.cast<Real>(), q}};

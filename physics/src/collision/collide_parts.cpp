@@ -38,6 +38,10 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
       if (touch(t)) gather(out, on, t, contact);
     });
   };
+  const auto grown = [&](const ConvexCore& core) {
+    if (on.rounding > Num(0)) grow_contact(on, core, contact);
+    return true;
+  };
   switch (on.shape.type) {
     case ShapeType::Sphere:
       each([&](SurfaceTriangle& t) { return touch_sphere(on, t, contact); });
@@ -46,16 +50,18 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
       each([&](SurfaceTriangle& t) { return touch_capsule(on, t, contact); });
       return;
     case ShapeType::Box:
-    case ShapeType::Hull:
+    case ShapeType::Hull: {
+      const PlacedPolyhedron polyhedron(on.shape, on.R, on.p);
+      const ConvexCore core({on.shape, on.p, on.q}, &polyhedron);
+      each([&](SurfaceTriangle& t) {
+        return touch_polyhedron(on, polyhedron, t, contact) && grown(core);
+      });
+      return;
+    }
     case ShapeType::Cylinder:
     case ShapeType::Cone: {
-      if (on.shape.type != ShapeType::Box && on.shape.hull == nullptr) return;
-      const PlacedPolyhedron polyhedron(on.shape, on.R, on.p);
-      each([&](SurfaceTriangle& t) {
-        if (!touch_polyhedron(on, polyhedron, t, contact)) return false;
-        if (on.rounding > Num(0)) grow_contact(on, polyhedron, contact);
-        return true;
-      });
+      const ConvexCore core({on.shape, on.p, on.q}, nullptr);
+      each([&](SurfaceTriangle& t) { return touch_round(on, core, t, contact) && grown(core); });
       return;
     }
     case ShapeType::HalfSpace:
@@ -64,6 +70,16 @@ void touch_triangles(const Surface& surface, const ConvexOnSurface& on, const Nu
     case ShapeType::Compound:
       return;
   }
+}
+
+// Points in the order of the names that the convex shape has for them, as on a face: what rolls
+// keeps that order, while it turns against the axes that gather() goes by.
+void order_by_core(Manifold& m, bool core_first) {
+  const auto name = [core_first](const ManifoldPoint& p) {
+    return core_first ? p.feature : swapped_name(p.feature);
+  };
+  std::sort(m.points, m.points + m.count,
+            [&](const ManifoldPoint& a, const ManifoldPoint& b) { return name(a) < name(b); });
 }
 
 void collide_surface(const Piece& surface, const Piece& convex, bool swapped, Real margin,
@@ -78,7 +94,7 @@ void collide_surface(const Piece& surface, const Piece& convex, bool swapped, Re
       shape.type == ShapeType::Hull ? R * to_num(shape.hull->interior_point()) + at.p : at.p;
   const Num thickness = Num(0.5) * static_cast<Num>(smallest_thickness(shape));
   const NumBox box = bounds_in(shape, at, static_cast<Num>(margin));
-  // Cores with flat faces meet the triangles at the distance of their rounding.
+  // All cores but points and segments meet the triangles at the distance of their rounding.
   const bool round = shape.type == ShapeType::Sphere || shape.type == ShapeType::Capsule;
   const Num rounding = round ? Num(0) : static_cast<Num>(shape.radius);
   out.group_count = 0;
@@ -100,7 +116,11 @@ void collide_surface(const Piece& surface, const Piece& convex, bool swapped, Re
   } else {
     run(HeightfieldSurface(*surface.shape.heightfield));
   }
+  const std::size_t begin = out.parts.size();
   finish_parts(out, {s.p, s.q}, thickness, swapped, out.parts);
+  if (!is_curved(shape.type)) return;
+  for (std::size_t i = begin; i < out.parts.size(); ++i)
+    order_by_core(out.parts[i].manifold, swapped);
 }
 
 // Of two shapes without children. Appends to out.parts.

@@ -5,7 +5,6 @@
 #include "collision/collision_tolerances.h"
 #include "collision/round_core.h"
 #include "collision/surface/composite_shape.h"
-#include "collision/surface/faceted.h"
 #include "math/eigen_bridge.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -94,9 +93,6 @@ struct Make {
     shape.type = ShapeType::Cylinder;
     shape.half = {s.radius, s.half_length, s.radius};
     shape.radius = s.rounding;
-    const std::shared_ptr<const HullGeometry> faceted = faceted_cylinder(s.half_length, s.radius);
-    shape.hull = faceted.get();  // for contacts with triangles
-    shape.owner = faceted;
     return shape;
   }
   CollisionShape operator()(const Cone& s) const {
@@ -104,9 +100,6 @@ struct Make {
     shape.type = ShapeType::Cone;
     shape.half = {s.radius, s.half_length, s.radius};
     shape.radius = s.rounding;
-    const std::shared_ptr<const HullGeometry> faceted = faceted_cone(s.half_length, s.radius);
-    shape.hull = faceted.get();  // for contacts with triangles
-    shape.owner = faceted;
     return shape;
   }
   CollisionShape operator()(const Capsule& s) const {

@@ -14,22 +14,7 @@ using namespace surfaces;
 
 constexpr double kDt = 1.0 / 60;  // [s]
 
-struct Ground {
-  const char* name;
-  Shape shape;
-  Vector3d origin{0, 0, 0};
-};
-std::vector<Ground> grounds() {
-  const auto mesh = [](int nx, int nz) {
-    return SurfaceMesh{made(grid(-10, 120, -20, 20, nx, nz, level, true))};
-  };
-  return {
-      {"two triangles", mesh(1, 1)},
-      {"1e4 triangles", mesh(130, 40)},
-      {"slivers across", mesh(2000, 1)},
-      {"slivers along", mesh(1, 2000)},
-      {"heightfield", Heightfield{field(131, 41, 1, [](int, int) { return 0.0; })}, {-10, 0, -20}}};
-}
+using Ground = FlatGround;
 
 struct Slider {
   const char* name;
@@ -43,7 +28,11 @@ std::vector<Slider> sliders() {
           {"turned box", box(0.5, 0.3, 0.4), 0.3, turn(0.4, Vector3d::UnitY())},
           {"capsule across", capsule(0.5, 0.3), 0.3, turn(kPi / 2, Vector3d::UnitX())},
           {"capsule along", capsule(0.5, 0.3), 0.3, turn(kPi / 2, Vector3d::UnitZ())},
-          {"hull", ConvexHull{oracle::prism(6, 0.5, 0.3)}, 0.3}};
+          {"hull", ConvexHull{oracle::prism(6, 0.5, 0.3)}, 0.3},
+          {"standing cylinder", cylinder(0.3, 0.5), 0.3},
+          {"cylinder across", cylinder(0.5, 0.3), 0.3, turn(kPi / 2, Vector3d::UnitX())},
+          {"cylinder along", cylinder(0.4, 0.2, 0.1), 0.3, turn(kPi / 2, Vector3d::UnitZ())},
+          {"standing cone", cone(0.25, 0.4, 0.05), 0.3}};
 }
 
 // 100 m at 10 m/s without friction, on ground that lies level or tilted against the world's axes
@@ -52,7 +41,7 @@ TEST(SurfaceSlide, HundredMetresWithoutALoss) {
   for (const bool tilted : {false, true}) {
     const Quat q = tilted ? turn(0.7, {1, 2, 3}) : Quat(Quat::Identity());
     const Eigen::Quaterniond R = wide(q);
-    for (const Ground& ground : grounds()) {
+    for (const Ground& ground : flat_grounds()) {
       for (const Slider& slider : sliders()) {
         WorldSettings settings = no_sleep();
         settings.gravity = vec(R * Vector3d(0, -kGravity, 0));
@@ -86,7 +75,7 @@ TEST(SurfaceSlide, HundredMetresWithoutALoss) {
 
 // With friction a ball rolls on: 5/7 of the speed it began to slide with, over all seams.
 TEST(SurfaceSlide, ABallRollsOverSeams) {
-  for (const Ground& ground : grounds()) {
+  for (const Ground& ground : flat_grounds()) {
     PhysicsWorld world(no_sleep());
     add(world, body_at(at(ground.origin, Quat::Identity()), MotionType::Static),
         with(ground.shape, material(0.6)));
@@ -115,7 +104,7 @@ TEST(SurfaceSlide, AStackStandsAsOnAHalfSpace) {
     return at;
   };
   const std::vector<Vector3d> truth = heights(HalfSpace{}, {0, 0, 0});
-  for (const Ground& ground : grounds()) {
+  for (const Ground& ground : flat_grounds()) {
     const std::vector<Vector3d> here = heights(ground.shape, ground.origin);
     for (std::size_t i = 0; i < truth.size(); ++i)
       // The corners stand in another order, and sums are rounded and solved in that order.

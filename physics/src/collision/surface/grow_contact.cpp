@@ -6,18 +6,17 @@ namespace {
 
 // By how much less than the rounding the point at its distance below a point of the core lies from
 // the core [m].
-Num missed(const ConvexOnSurface& on, const PlacedPolyhedron& core, NumVec on_core, NumVec n) {
+Num missed(const ConvexOnSurface& on, const ConvexCore& core, NumVec on_core, NumVec n) {
   const NumVec below = on_core - on.rounding * n;
-  const GjkResult gap = gjk_distance([&](NumVec) { return below; },
-                                     [&](NumVec d) { return core.vertex(core.support_index(d)); },
-                                     core.centre() - below, core.outer_radius());
+  const GjkResult gap =
+      gjk_distance([&](NumVec) { return below; }, [&](NumVec d) { return core.support(d); },
+                   core.centre() - below, core.outer_radius());
   return on.rounding - gap.distance;
 }
 
 }  // namespace
 
-void grow_contact(const ConvexOnSurface& on, const PlacedPolyhedron& core,
-                  TriangleContact& contact) {
+void grow_contact(const ConvexOnSurface& on, const ConvexCore& core, TriangleContact& contact) {
   ContactCandidates& list = contact.candidates;
   const NumVec n = contact.normal;
   int deepest = 0, kept = 0;

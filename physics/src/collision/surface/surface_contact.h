@@ -1,8 +1,8 @@
 // Contacts of one convex shape with the triangles of a surface, in the surface's frame.
 #pragma once
 
+#include "collision/convex_core.h"
 #include "collision/part_manifolds.h"
-#include "collision/placed_polyhedron.h"
 #include "collision/surface/surface_triangle.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -14,7 +14,7 @@ struct ConvexOnSurface {
   NumRotation q;
   NumMatrix R;
   Num margin;     // [m] of the core
-  Num rounding;   // [m] that a core with flat faces is grown by
+  Num rounding;   // [m] that the core of a box, hull, cylinder or cone is grown by
   Num thickness;  // [m] half of the smallest
   NumVec middle;  // [m]
   Num behind;     // [m] how far behind a triangle the middle may lie
@@ -35,11 +35,13 @@ bool touch_sphere(const ConvexOnSurface& on, SurfaceTriangle& t, TriangleContact
 bool touch_capsule(const ConvexOnSurface& on, SurfaceTriangle& t, TriangleContact& out);
 bool touch_polyhedron(const ConvexOnSurface& on, const PlacedPolyhedron& polyhedron,
                       SurfaceTriangle& t, TriangleContact& out);
+// Cylinders and cones, truly round.
+bool touch_round(const ConvexOnSurface& on, const ConvexCore& core, SurfaceTriangle& t,
+                 TriangleContact& out);
 
 // A contact of a sharp core becomes that of the shape that it is grown to. Points where the grown
 // surface bulges beyond them go; the deepest stays.
-void grow_contact(const ConvexOnSurface& on, const PlacedPolyhedron& core,
-                  TriangleContact& contact);
+void grow_contact(const ConvexOnSurface& on, const ConvexCore& core, TriangleContact& contact);
 
 // Names of edge and corner contacts, apart from those of faces (see part_of_plane).
 inline constexpr std::uint32_t kFeaturePart = 1U << 31;
