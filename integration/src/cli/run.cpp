@@ -8,6 +8,7 @@
 #include "cli/read_number.h"
 #include "cli/recording_file.h"
 #include "cli/run_summary.h"
+#include "cli/status_line.h"
 #include "plumb/assets/scene.h"
 #include "plumb/world.h"
 
@@ -53,8 +54,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // Steps the world and fills the summary in; an error text if the run had to be given up.
-std::string simulate(PhysicsWorld& world, const assets::Scene& scene, std::uint64_t steps,
-                     bool quiet, const RecordingFile& recording, RunSummary& summary) {
+std::string simulate(PhysicsWorld& world, const assets::Scene& scene,
+                     const assets::SceneInstance& instance, std::uint64_t steps, bool quiet,
+                     const RecordingFile& recording, RunSummary& summary) {
   summary.begin(world);
   ProgressBar bar(steps, !quiet);
   for (std::uint64_t k = 0; k < steps && stop_wanted == 0; ++k) {
@@ -64,7 +66,7 @@ std::string simulate(PhysicsWorld& world, const assets::Scene& scene, std::uint6
     if (!report.status.ok()) {
       return "step " + std::to_string(k + 1) + " was refused: " + report.status.message;
     }
-    summary.add(world, report);
+    summary.add(world, instance, report);
     if (std::string problem = recording.problem(); !problem.empty()) return problem;
     bar.show(k + 1, world.time());
   }
@@ -91,8 +93,11 @@ int run_scene(const RunOptions& options) {
   scene.settings.profiling = !options.output.empty();  // a recording shows the stages' times
   std::unique_ptr<JobSystem> jobs;  // outlives the world; made when all meshes are read by forks
   PhysicsWorld world;
-  const assets::Result<assets::SceneInstance> instance =
-      assets::instantiate(scene, world, {.guarded = true});
+  const assets::Result<assets::SceneInstance> instance = [&] {
+    StatusLine status(!options.quiet);
+    const auto show = [&](const std::string& work) { status.show(work); };
+    return assets::instantiate(scene, world, {.guarded = true, .on_work = show});
+  }();
   if (!instance.ok()) {
     complain(instance.error());
     return kBadInput;
@@ -116,17 +121,14 @@ int run_scene(const RunOptions& options) {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
   RunSummary summary;
-  std::string wrong = simulate(world, scene, steps, options.quiet, recording, summary);
+  std::string wrong = simulate(world, scene, *instance, steps, options.quiet, recording, summary);
   if (recording.is_open()) {
     const std::string unfinished = recording.finish(world);
     if (wrong.empty()) wrong = unfinished;
   }
   if (!options.quiet) summary.print(scene, *instance, world, recording, options.output);
   if (!wrong.empty()) complain(wrong);
-  if (summary.quarantined > 0) {
-    complain(std::to_string(summary.quarantined) +
-             " bodies became non-finite and were taken out of the run");
-  }
+  for (const std::string& lost : summary.lost_bodies()) complain(lost);
   if (stop_wanted != 0) complain("stopped at step " + std::to_string(summary.steps));
   const bool good = wrong.empty() && summary.quarantined == 0 && stop_wanted == 0;
   return good ? kOk : kFailed;
