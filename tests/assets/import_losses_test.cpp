@@ -176,6 +176,22 @@ TEST_F(ImportLosses, DamagedGlbFilesAreErrors) {
   EXPECT_TRUE(import_mesh(write("good.glb", glb(3))).ok());  // nothing is left of the bad one
 }
 
+// The reader of assimp reads for ever where no line of a PLY header is its end.
+TEST_F(ImportLosses, APlyHeaderEndsWithALineOfItsOwn) {
+  const auto ply = [](const std::string& last) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\nelement face 1\nproperty list uchar int vertex_indices" +
+           last + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  };
+  for (const std::string last : {"\nend_header\n", "\r\nend_header\r\n", "\n  end_header  \n"})
+    EXPECT_TRUE(import_mesh_guarded(write("good.ply", ply(last))).ok()) << last;
+  for (const std::string last : {"*end_header\n", "\nend_headers\n", "\nthe end_header\n", "\n"}) {
+    const Result<Imported> damaged = import_mesh_guarded(write("damaged.ply", ply(last)));
+    EXPECT_FALSE(damaged.ok()) << last;
+    EXPECT_TRUE(has(damaged.error(), "no end_header line")) << damaged.error();
+  }
+}
+
 // A hexagon that crosses itself, and a triangle.
 const std::string kCrossing =
     "v 0 4 0\nv 4 1 0\nv 2 2 0\nv 2 0 0\nv 3 2 0\nv 3 3 0\nv 0 0 1\nf 1 2 3 4 5 6\nf 1 2 7\n";

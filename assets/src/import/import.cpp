@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -148,9 +149,17 @@ std::string cut_off_header(const std::string& path) {
   if (head != "ply" && head != "PLY") return {};
   head.assign(kMostHeader, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head.find("end_header") == std::string::npos
-             ? "the PLY header has no end_header line; the file is cut off"
-             : "";
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  constexpr std::string_view kBlanks = " \t", kLast = "end_header";
+  for (std::size_t line = 0; line < head.size();) {
+    const std::size_t end = std::min(head.find_first_of("\r\n", line), head.size());
+    std::string_view words = std::string_view(head).substr(line, end - line);
+    words.remove_prefix(std::min(words.find_first_not_of(kBlanks), words.size()));
+    words = words.substr(0, words.find_first_of(kBlanks));
+    if (words == kLast) return {};
+    line = end + 1;
+  }
+  return "the PLY header has no end_header line; the file is cut off or damaged";
 }
 
 Result<Imported> read(const std::string& path, const ImportOptions& options) {

@@ -54,9 +54,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // Steps the world and fills the summary in; an error text if the run had to be given up.
-std::string simulate(PhysicsWorld& world, const assets::Scene& scene,
-                     const assets::SceneInstance& instance, std::uint64_t steps, bool quiet,
-                     const RecordingFile& recording, RunSummary& summary) {
+std::string simulate(PhysicsWorld& world, const assets::Scene& scene, std::uint64_t steps,
+                     bool quiet, const RecordingFile& recording, RunSummary& summary) {
   summary.begin(world);
   ProgressBar bar(steps, !quiet);
   for (std::uint64_t k = 0; k < steps && stop_wanted == 0; ++k) {
@@ -66,7 +65,7 @@ std::string simulate(PhysicsWorld& world, const assets::Scene& scene,
     if (!report.status.ok()) {
       return "step " + std::to_string(k + 1) + " was refused: " + report.status.message;
     }
-    summary.add(world, instance, report);
+    summary.add(world, report);
     if (std::string problem = recording.problem(); !problem.empty()) return problem;
     bar.show(k + 1, world.time());
   }
@@ -121,16 +120,16 @@ int run_scene(const RunOptions& options) {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
   RunSummary summary;
-  std::string wrong = simulate(world, scene, *instance, steps, options.quiet, recording, summary);
+  std::string wrong = simulate(world, scene, steps, options.quiet, recording, summary);
   if (recording.is_open()) {
     const std::string unfinished = recording.finish(world);
     if (wrong.empty()) wrong = unfinished;
   }
   if (!options.quiet) summary.print(scene, *instance, world, recording, options.output);
   if (!wrong.empty()) complain(wrong);
-  for (const std::string& lost : summary.lost_bodies()) complain(lost);
+  for (const std::string& lost : summary.lost_bodies(*instance, world)) complain(lost);
   if (stop_wanted != 0) complain("stopped at step " + std::to_string(summary.steps));
-  const bool good = wrong.empty() && summary.quarantined == 0 && stop_wanted == 0;
+  const bool good = wrong.empty() && summary.lost.empty() && stop_wanted == 0;
   return good ? kOk : kFailed;
 }
 

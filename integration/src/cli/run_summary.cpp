@@ -25,20 +25,12 @@ std::string readable(double x) {
   return text;
 }
 
-// Its name in the scene.
-std::string name_of(BodyId body, const assets::SceneInstance& instance) {
-  const auto found =
-      std::find_if(instance.bodies.begin(), instance.bodies.end(),
-                   [&](const assets::SceneInstanceBody& entry) { return entry.id == body; });
-  return found == instance.bodies.end() ? "?" : found->name;
-}
-
-// What moves by itself, and how much of that sleeps.
+// What moves by itself, and how much of that sleeps; what was lost lies still but does not sleep.
 struct Sleepers {
   std::size_t dynamic = 0, asleep = 0;
 };
 
-Sleepers sleepers_of(const PhysicsWorld& world) {
+Sleepers sleepers_of(const PhysicsWorld& world, const std::vector<RunSummary::Lost>& lost) {
   std::vector<BodyState> states;
   world.copy_body_states(states);
   Sleepers out;
@@ -46,6 +38,10 @@ Sleepers sleepers_of(const PhysicsWorld& world) {
     if (state.type != MotionType::Dynamic) continue;
     ++out.dynamic;
     if (!state.awake) ++out.asleep;
+  }
+  for (const RunSummary::Lost& gone : lost) {
+    const BodyState state = world.state(gone.body);
+    if (state.type == MotionType::Dynamic && !state.awake) --out.asleep;
   }
   return out;
 }
@@ -58,19 +54,14 @@ void RunSummary::begin(const PhysicsWorld& world) {
   largest_kinetic = energy.kinetic_linear + energy.kinetic_angular;
 }
 
-void RunSummary::add(const PhysicsWorld& world, const assets::SceneInstance& instance,
-                     const StepReport& report) {
+void RunSummary::add(const PhysicsWorld& world, const StepReport& report) {
   ++steps;
   body_steps += report.bodies;
   contact_points = report.contact_points;
   most_contact_points = std::max<std::uint64_t>(most_contact_points, report.contact_points);
   largest_penetration = std::max(largest_penetration, report.largest_penetration);
-  quarantined += report.quarantined;
-  for (const QuarantineEvent& event : world.events().quarantined) {
-    if (first_lost.size() < kNamedBodies)
-      first_lost.push_back("step " + std::to_string(report.step) + ": body '" +
-                           name_of(event.body, instance) + "'");
-  }
+  for (const QuarantineEvent& event : world.events().quarantined)
+    lost.push_back({report.step, event.body});
   const EnergyReport energy = world.energy();
   last_energy = energy.total();
   lowest_energy = std::min(lowest_energy, last_energy);
@@ -78,12 +69,18 @@ void RunSummary::add(const PhysicsWorld& world, const assets::SceneInstance& ins
   largest_kinetic = std::max(largest_kinetic, energy.kinetic_linear + energy.kinetic_angular);
 }
 
-std::vector<std::string> RunSummary::lost_bodies() const {
+std::vector<std::string> RunSummary::lost_bodies(const assets::SceneInstance& instance,
+                                                 const PhysicsWorld& world) const {
+  const std::size_t named = std::min(lost.size(), kNamedBodies);
   std::vector<std::string> lines;
-  for (const std::string& lost : first_lost)
-    lines.push_back(lost + " became non-finite and was taken out of the run");
-  if (quarantined > first_lost.size()) {
-    lines.push_back("and " + std::to_string(quarantined - first_lost.size()) +
+  for (std::size_t k = 0; k < named; ++k) {
+    // A body of a scene carries its place in the instance.
+    const std::string& name = instance.bodies[world.state(lost[k].body).user_data].name;
+    lines.push_back("step " + std::to_string(lost[k].step) + ": body '" + name +
+                    "' became non-finite and was taken out of the run");
+  }
+  if (lost.size() > named) {
+    lines.push_back("and " + std::to_string(lost.size() - named) +
                     " more bodies became non-finite");
   }
   return lines;
@@ -103,7 +100,7 @@ void RunSummary::print(const assets::Scene& scene, const assets::SceneInstance& 
               ratio(simulated, stepping),
               kMilliseconds * ratio(stepping, static_cast<double>(steps)),
               kMicroseconds * ratio(stepping, static_cast<double>(body_steps)));
-  const Sleepers sleepers = sleepers_of(world);
+  const Sleepers sleepers = sleepers_of(world, lost);
   std::printf("Contacts     %" PRIu64 " points at the end, at most %" PRIu64
               ", not counting what sleeps; deepest overlap %.3f mm\n",
               contact_points, most_contact_points, kMillimetres * largest_penetration);

@@ -17,20 +17,24 @@ struct RunSummary {
   std::uint64_t body_steps = 0;
   std::uint64_t contact_points = 0;  // at the end
   std::uint64_t most_contact_points = 0;
-  double largest_penetration = 0;       // [m]
-  std::uint64_t quarantined = 0;        // bodies whose state became non-finite
-  std::vector<std::string> first_lost;  // the first of them: step and name
-  double first_energy = 0;              // [J]
-  double last_energy = 0;               // [J]
-  double lowest_energy = 0;             // [J] so far
-  double energy_gained = 0;             // [J] the most that it ever stood above an earlier value
-  double largest_kinetic = 0;           // [J]
+  double largest_penetration = 0;  // [m]
+  // Bodies whose state became non-finite.
+  struct Lost {
+    std::uint64_t step = 0;
+    BodyId body;
+  };
+  std::vector<Lost> lost;
+  double first_energy = 0;     // [J]
+  double last_energy = 0;      // [J]
+  double lowest_energy = 0;    // [J] so far
+  double energy_gained = 0;    // [J] the most that it ever stood above an earlier value
+  double largest_kinetic = 0;  // [J]
 
   void begin(const PhysicsWorld& world);
-  void add(const PhysicsWorld& world, const assets::SceneInstance& instance,
-           const StepReport& report);
+  void add(const PhysicsWorld& world, const StepReport& report);
   // A line for each of the first bodies that were taken out of the run, and one for the others.
-  [[nodiscard]] std::vector<std::string> lost_bodies() const;
+  [[nodiscard]] std::vector<std::string> lost_bodies(const assets::SceneInstance& instance,
+                                                     const PhysicsWorld& world) const;
   void print(const assets::Scene& scene, const assets::SceneInstance& instance,
              const PhysicsWorld& world, const RecordingFile& recording,
              const std::string& output) const;
