@@ -11,6 +11,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/import.h"
@@ -174,6 +175,20 @@ TEST_F(ImportLosses, DamagedGlbFilesAreErrors) {
   const std::string text = error_of("damaged.glb", glb(60));
   EXPECT_TRUE(has(text, "it is damaged") && has(text, "out-of-range indices")) << text;
   EXPECT_TRUE(import_mesh(write("good.glb", glb(3))).ok());  // nothing is left of the bad one
+}
+
+TEST_F(ImportLosses, EachThreadHearsItsOwnReader) {
+  const std::string good = write("good.glb", glb(3)), bad = write("bad.glb", glb(60));
+  constexpr int kTimes = 40;  // enough for the threads to meet
+  int good_read = 0, bad_refused = 0;
+  std::thread other([&] {
+    for (int k = 0; k < kTimes; ++k)
+      bad_refused += has(import_mesh(bad).error(), "damaged") ? 1 : 0;
+  });
+  for (int k = 0; k < kTimes; ++k) good_read += import_mesh(good).ok() ? 1 : 0;
+  other.join();
+  EXPECT_EQ(good_read, kTimes);
+  EXPECT_EQ(bad_refused, kTimes);
 }
 
 // The reader of assimp reads for ever where no line of a PLY header is its end.

@@ -9,8 +9,9 @@
 
 namespace plumb::inline PLUMB_ABI::assets::detail {
 
-// Collects warnings and errors of the calling thread while it lives. Of an application that has set
-// a logger of its own for assimp, nothing is heard: that logger hears it.
+// Collects warnings and errors of the calling thread while it lives, through the one logger that
+// assimp has for all threads. An application that has set a logger of its own for assimp keeps it:
+// that one hears it all then, and nothing is heard here.
 class ReaderLog {
  public:
   ReaderLog();
