@@ -17,13 +17,6 @@ class SceneErrors : public testing::TestWithParam<BadScene> {};
 TEST_P(SceneErrors, NamesFileLineAndRemedy) { expect_error_of(GetParam()); }
 
 const BadScene kBadScenes[] = {
-    {"EmptyFile", "", 1, "not JSON", "comma, quote or bracket"},
-    {"MissingComma", "{\n\"plumb_scene\": 1\n\"bodies\": []\n}", 3, "not JSON", "comma"},
-    {"TrailingComma", "{\n\"plumb_scene\": 1,\n\"bodies\": [],\n}", 4, "not JSON", "comma"},
-    {"Comment", "{\n// a comment\n\"plumb_scene\": 1, \"bodies\": []}", 2, "not JSON",
-     "no comments"},
-    {"CutOff", "{\n\"plumb_scene\": 1,\n\"bodies\": [", 3, "not JSON", "bracket"},
-    {"HugeNumber", "{\n\"plumb_scene\": 1e999, \"bodies\": []}", 2, "not JSON", "comma"},
     {"DuplicateKey", "{\"plumb_scene\": 1,\n\"name\": \"a\",\n\"name\": \"b\", \"bodies\": []}", 3,
      "'name' stands here a second time", "the one in line 2"},
     {"NotAnObject", "[1, 2]", 1, "the scene is a list", "write an object"},

@@ -74,7 +74,8 @@ TEST(SceneParts, HaveTheMassOfTheirMesh) {
   ASSERT_TRUE(mesh.parts_report.has_value());
   EXPECT_TRUE(mesh.parts_report->within_distance) << mesh.parts_report->text();
   EXPECT_EQ(mesh.parts_report->parts, mesh.parts->children().size());
-  EXPECT_TRUE(built.instance.notes.empty());
+  ASSERT_EQ(built.instance.notes.size(), 1u);  // and nothing on the ring
+  EXPECT_NE(built.instance.notes[0].find("'bowl' is used by no body"), std::string::npos);
   // It is drawn as the mesh.
   EXPECT_EQ(built.instance.bodies[built.instance.index_of.find("ring")->second].visuals.size(), 1u);
 

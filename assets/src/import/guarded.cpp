@@ -120,8 +120,10 @@ std::vector<std::uint8_t> packed(const Result<Imported>& result) {
        {r.parts, r.mirrored_parts, r.skinned_parts, r.dropped_points, r.dropped_lines})
     out.put(n);
   out.put(r.coordinate_rounding);
-  out.put(r.notes.size());
-  for (const std::string& note : r.notes) out.put_text(note);
+  for (const auto* texts : {&r.losses, &r.notes}) {
+    out.put(texts->size());
+    for (const std::string& text : *texts) out.put_text(text);
+  }
   return out.bytes();
 }
 
@@ -154,8 +156,10 @@ Result<Imported> unpacked(const std::vector<std::uint8_t>& bytes, const std::str
     *n = in.get<std::size_t>();
   }
   r.coordinate_rounding = in.get<double>();
-  r.notes.resize(in.get_count(sizeof(std::size_t)));
-  for (std::string& note : r.notes) note = in.get_text();
+  for (std::vector<std::string>* texts : {&r.losses, &r.notes}) {
+    texts->resize(in.get_count(sizeof(std::size_t)));
+    for (std::string& text : *texts) text = in.get_text();
+  }
   if (!in.complete()) return broken;
   return out;
 }

@@ -14,9 +14,12 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "import/off_reader.h"
+#include "import/reader_log.h"
 #include "import/units.h"
 
 namespace plumb::inline PLUMB_ABI::assets {
@@ -116,6 +119,18 @@ class Collector {
   double rounding_ = 0;  // [m] largest coordinate of a part, as seen in the world
 };
 
+// Into which the faces of a scene can be cut.
+std::size_t triangles_of(const aiScene& scene) {
+  std::size_t count = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f) {
+      const unsigned corners = scene.mMeshes[m]->mFaces[f].mNumIndices;
+      if (corners > 2) count += corners - 2;
+    }
+  }
+  return count;
+}
+
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   if (!extension.empty()) extension.erase(0, 1);
@@ -134,9 +149,17 @@ std::string cut_off_header(const std::string& path) {
   if (head != "ply" && head != "PLY") return {};
   head.assign(kMostHeader, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head.find("end_header") == std::string::npos
-             ? "the PLY header has no end_header line; the file is cut off"
-             : "";
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  constexpr std::string_view kBlanks = " \t", kLast = "end_header";
+  for (std::size_t line = 0; line < head.size();) {
+    const std::size_t end = std::min(head.find_first_of("\r\n", line), head.size());
+    std::string_view words = std::string_view(head).substr(line, end - line);
+    words.remove_prefix(std::min(words.find_first_not_of(kBlanks), words.size()));
+    words = words.substr(0, words.find_first_of(kBlanks));
+    if (words == kLast) return {};
+    line = end + 1;
+  }
+  return "the PLY header has no end_header line; the file is cut off or damaged";
 }
 
 Result<Imported> read(const std::string& path, const ImportOptions& options) {
@@ -169,12 +192,22 @@ Result<Imported> read(const std::string& path, const ImportOptions& options) {
                                   aiComponent_COLORS | aiComponent_TEXCOORDS |
                                   aiComponent_ANIMATIONS | aiComponent_TEXTURES |
                                   aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate);
+  detail::read_off_ourselves(importer);
+  const detail::ReaderLog log;
+  const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent);
+  // Triangulated apart from reading, so that what gets lost in it can be counted.
+  const std::size_t triangles_due = scene != nullptr ? triangles_of(*scene) : 0;
+  if (scene != nullptr) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     const std::string reason = importer.GetErrorString();
     if (reason == "std::bad_alloc")
       return failure("asks for more memory than there is for it; is it damaged?");
     return failure("cannot be read as a mesh: " + (reason.empty() ? "unknown reason" : reason));
+  }
+
+  if (const std::string damage = log.damage(); !damage.empty()) {
+    return failure("it is damaged, and a part of it would be lost: " + damage +
+                   "; export it again");
   }
 
   Imported out;
@@ -197,6 +230,12 @@ Result<Imported> read(const std::string& path, const ImportOptions& options) {
     return failure("it holds no triangles (" + std::to_string(scene->mNumMeshes) + " meshes, " +
                    std::to_string(out.report.dropped_lines) + " lines, " +
                    std::to_string(out.report.dropped_points) + " points); a body needs a surface");
+  }
+  if (const std::size_t made = triangles_of(*scene); made < triangles_due) {
+    out.report.losses.push_back(
+        std::to_string(triangles_due - made) + " of " + std::to_string(triangles_due) +
+        " triangles are missing: polygons that cross themselves could not be cut into triangles; "
+        "triangulate it in a modelling program");
   }
   if (out.report.skinned_parts > 0)
     out.report.notes.push_back("parts with bones are taken in bind pose");

@@ -31,6 +31,7 @@ Json import_json(const ImportReport& r) {
           {"dropped_points", r.dropped_points},
           {"dropped_lines", r.dropped_lines},
           {"coordinate_rounding", r.coordinate_rounding},
+          {"losses", r.losses},
           {"notes", r.notes}};
 }
 

@@ -72,6 +72,7 @@ void write_file(Page& page, const MeshInspection& inspection) {
   page.row("size", vector_text(inspection.certificate.bounds.size(), "m"));
   page.row("middle", vector_text(inspection.certificate.bounds.center(), "m"));
   page.row("coordinate rounding", format("%.3g m", r.coordinate_rounding));
+  for (const std::string& loss : r.losses) page.row("LOST", loss);
   for (const std::string& note : r.notes) page.row("note", note);
   if (!inspection.repaired.empty()) page.row("repaired", inspection.repaired);
 }

@@ -5,6 +5,7 @@
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/scene.h"
 #include "scene/effects.h"
+#include "scene/joint_notes.h"
 #include "scene/place_joint.h"
 #include "scene/prepared_mesh.h"
 #include "scene/repeat.h"
@@ -134,6 +135,19 @@ std::string note_on_mass(const SceneBody& source, const Template& model) {
          "one of them a density, or the body a mass";
 }
 
+// Files that no body needs are not read, so that nobody has looked whether they are sound.
+void note_unused_files(const Scene& scene, const MeshStore& meshes, const ShapeMaker& shapes,
+                       std::vector<std::string>& notes) {
+  const auto note = [&](const std::string& what) {
+    notes.push_back(what + " is used by no body; its file was not read");
+  };
+  for (const SceneMesh& mesh : scene.meshes)
+    if (!meshes.has(mesh.name)) note("mesh '" + mesh.name + "'");
+  for (const SceneHeightfield& field : scene.heightfields)
+    if (!field.file.empty() && !shapes.has_heightfield(field.name))
+      note("heightfield '" + field.name + "'");
+}
+
 std::string world_error(const Scene& scene, int line, const std::string& name,
                         const Status& status) {
   return place_of(scene, line) + ": body '" + name + "': " + status.message;
@@ -250,6 +264,7 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world,
                    "': " + created.status.message};
     }
     instance.joints.push_back({joint.name, created.id});
+    scene::note_slips_of(joint.name, created.id, world, instance.notes);
   }
   for (const SceneExclusion& pair : scene.excluded_pairs) {
     const std::string error = exclude_pair(pair, instance, world);
@@ -264,6 +279,7 @@ Result<SceneInstance> instantiate(const Scene& scene, PhysicsWorld& world,
     undo.created(created.id);
     instance.effects.push_back({effect.name, created.id});
   }
+  note_unused_files(scene, meshes, shapes, instance.notes);
   meshes.move_into(instance);
   undo.keep();
   return instance;

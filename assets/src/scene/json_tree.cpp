@@ -5,6 +5,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "scene/json_fault.h"
+
 namespace plumb::inline PLUMB_ABI::assets::scene {
 namespace {
 
@@ -59,6 +61,14 @@ class LineTable {
   std::vector<std::size_t> ends_;
 };
 
+// In characters of UTF-8, from 1.
+int column_at(std::string_view text, std::size_t offset) {
+  int column = 1;
+  for (std::size_t k = std::min(offset, text.size()); k-- > 0 && text[k] != '\n';)
+    if ((static_cast<unsigned char>(text[k]) & 0xc0u) != 0x80u) ++column;
+  return column;
+}
+
 class TreeBuilder {
  public:
   TreeBuilder(std::string_view text, const char* const* read_up_to, JsonNode& root,
@@ -100,16 +110,10 @@ class TreeBuilder {
     object.members.push_back({std::move(name), line(), {}});
     return true;
   }
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& e) {
-    // Of "[id] parse error at line L, column C: text" only the text: the line is said already.
-    std::string what = e.what();
-    for (const char* before_text : {"] ", ": "}) {
-      const std::size_t at = what.find(before_text);
-      if (at != std::string::npos) what = what.substr(at + 2);
-    }
-    problems_.add(lines_.line_at(position > 0 ? position - 1 : 0), "this is not JSON: " + what,
-                  "look here and just before for a comma, quote or bracket too few or too many "
-                  "(JSON has no comments)");
+  bool parse_error(std::size_t read, const std::string&, const nlohmann::detail::exception& e) {
+    const JsonFault fault = explain_json_fault(text_, read, e.what());
+    problems_.add(lines_.line_at(fault.offset), column_at(text_, fault.offset), fault.what,
+                  fault.remedy);
     return false;
   }
 

@@ -1,8 +1,10 @@
 #include "scene/prepared_mesh.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "mass/integrals.h"
+#include "mesh/topology.h"
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
 #include "plumb/assets/repair.h"
@@ -16,6 +18,37 @@ constexpr double kNotableHullExcess = 0.05;  // relative volume
 // A body longer than this is more often one whose file is in millimetres.
 constexpr double kDoubtfulSize = 100;  // [m]
 
+std::string triangles_of(const TriangleMesh& mesh) {
+  return std::to_string(mesh.triangles.size()) + " triangles";
+}
+
+// Edges that an odd number of triangles use: a closed surface has none.
+std::size_t free_edges(const TriangleMesh& mesh) {
+  const detail::Places places = detail::gather_places(mesh.vertices, 0);
+  std::vector<Triangle> faces = mesh.triangles;
+  for (Triangle& face : faces)
+    for (std::uint32_t& corner : face) corner = places.place_of[corner];
+  std::size_t free = 0;
+  detail::for_each_edge(detail::sorted_edge_uses(faces), [&](std::size_t begin, std::size_t end) {
+    if ((end - begin) % 2 != 0) ++free;
+  });
+  return free;
+}
+
+// What there is to say of a mesh that is not closed, whose mass cannot be that of its inside; empty
+// if it is closed. A surface may be open, and parts never are.
+std::string note_on_opening(const PreparedMesh& mesh) {
+  const bool solid = mesh.mass && mesh.source->mass.method == MassMethod::Solid;
+  if (!mesh.hull || solid) return {};
+  const std::size_t free = free_edges(mesh.mesh);
+  if (free == 0) return {};
+  const std::string method = name_of(mesh.source->mass.method);
+  return "mesh '" + mesh.source->name + "' is not closed: " + std::to_string(free) +
+         " edges have a free side; " +
+         (mesh.mass ? "its mass is by \"mass_of\": {\"method\": \"" + method + "\"}"
+                    : std::string("no mass was taken from it"));
+}
+
 }  // namespace
 
 std::string MeshStore::place_of(const SceneMesh& mesh) const {
@@ -24,8 +57,13 @@ std::string MeshStore::place_of(const SceneMesh& mesh) const {
   return place + ": mesh '" + mesh.name + "': ";
 }
 
+void MeshStore::tell(const SceneMesh& mesh, const std::string& work) const {
+  if (options_.on_work) options_.on_work("mesh '" + mesh.name + "': " + work);
+}
+
 std::string MeshStore::read(PreparedMesh& prepared) const {
   const SceneMesh& source = *prepared.source;
+  tell(source, "reading " + source.path);
   ImportOptions options;
   options.metres_per_unit = source.metres_per_unit;
   options.file_up = source.up;
@@ -34,7 +72,10 @@ std::string MeshStore::read(PreparedMesh& prepared) const {
                                   : import_mesh(source.path, options);
   if (!imported.ok()) return imported.error();
   prepared.mesh = std::move(imported.value().mesh);
+  for (const std::string& loss : imported->report.losses)
+    prepared.notes.push_back("mesh '" + source.name + "': " + loss);
   if (source.repair) {
+    tell(source, "repairing " + triangles_of(prepared.mesh));
     Result<Repaired> repaired = repair(prepared.mesh, *source.repair);
     if (!repaired.ok()) return repaired.error();
     prepared.notes.push_back("mesh '" + source.name + "' was repaired: " + repaired->text());
@@ -52,7 +93,9 @@ std::string MeshStore::read(PreparedMesh& prepared) const {
   return {};
 }
 
-std::string MeshStore::make_hull(PreparedMesh& prepared) {
+std::string MeshStore::make_hull(PreparedMesh& prepared) const {
+  tell(*prepared.source,
+       "convex hull of " + std::to_string(prepared.mesh.vertices.size()) + " vertices");
   Result<HullMesh> hull =
       convex_hull(prepared.mesh.vertices, {.max_vertices = prepared.source->max_hull_vertices});
   if (!hull.ok()) return hull.error();
@@ -63,7 +106,8 @@ std::string MeshStore::make_hull(PreparedMesh& prepared) {
   return {};
 }
 
-std::string MeshStore::make_surface(PreparedMesh& prepared) {
+std::string MeshStore::make_surface(PreparedMesh& prepared) const {
+  tell(*prepared.source, "surface of " + triangles_of(prepared.mesh));
   Result<std::shared_ptr<const TriangleMeshGeometry>> surface = to_physics(prepared.mesh);
   if (!surface.ok()) return surface.error();
   prepared.surface = surface.value();
@@ -76,7 +120,8 @@ std::string MeshStore::make_surface(PreparedMesh& prepared) {
   return {};
 }
 
-std::string MeshStore::make_parts(PreparedMesh& prepared) {
+std::string MeshStore::make_parts(PreparedMesh& prepared) const {
+  tell(*prepared.source, "cutting " + triangles_of(prepared.mesh) + " into convex parts");
   const Result<Decomposition> decomposition = decompose(prepared.mesh, prepared.source->parts);
   if (!decomposition.ok()) return decomposition.error();
   Result<std::shared_ptr<const CompoundGeometry>> parts = to_physics(decomposition.value());
@@ -84,6 +129,11 @@ std::string MeshStore::make_parts(PreparedMesh& prepared) {
   prepared.parts = parts.value();
   prepared.parts_report = decomposition->report;
   return {};
+}
+
+bool MeshStore::has(const std::string& name) const {
+  return std::any_of(meshes_.begin(), meshes_.end(),
+                     [&](const PreparedMesh& mesh) { return mesh.source->name == name; });
 }
 
 Result<std::size_t> MeshStore::index_of(const std::string& name) {
@@ -118,6 +168,8 @@ Result<MassProperties> MeshStore::mass_of(const std::string& name, std::optional
   if (!index.ok()) return Error{index.error()};
   PreparedMesh& mesh = meshes_[index.value()];
   if (!mesh.mass) {
+    tell(*mesh.source, "mass of " + triangles_of(mesh.mesh) + " by the method " +
+                           name_of(mesh.source->mass.method));
     const Result<MeshMass> mass = mass_of_mesh(mesh.mesh, mesh.source->mass);
     if (!mass.ok()) {
       return Error{place_of(*mesh.source) + mass.error() +
@@ -141,6 +193,8 @@ void MeshStore::move_into(SceneInstance& instance) {
     SceneInstanceMesh& out = instance.meshes.emplace_back();
     out.name = mesh.source->name;
     instance.notes.insert(instance.notes.end(), mesh.notes.begin(), mesh.notes.end());
+    if (std::string note = note_on_opening(mesh); !note.empty())
+      instance.notes.push_back(std::move(note));
     if (mesh.surface && mesh.surface->odd_edges() > 0) {
       instance.notes.push_back("mesh '" + out.name + "' has " +
                                std::to_string(mesh.surface->odd_edges()) +

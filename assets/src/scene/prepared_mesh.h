@@ -32,6 +32,8 @@ class MeshStore {
       : scene_(scene), options_(options) {}
 
   Result<std::size_t> index_of(const std::string& name);
+  // Whether a body has asked for it.
+  [[nodiscard]] bool has(const std::string& name) const;
   [[nodiscard]] const PreparedMesh& at(std::size_t index) const { return meshes_[index]; }
   // Of a hull or parts. With a density other than that of the mesh if one is given [kg/m^3] > 0.
   Result<MassProperties> mass_of(const std::string& name, std::optional<double> density);
@@ -40,11 +42,12 @@ class MeshStore {
 
  private:
   [[nodiscard]] std::string place_of(const SceneMesh& mesh) const;
+  void tell(const SceneMesh& mesh, const std::string& work) const;
   // An empty text: it went well.
   std::string read(PreparedMesh& prepared) const;
-  static std::string make_hull(PreparedMesh& prepared);
-  static std::string make_surface(PreparedMesh& prepared);
-  static std::string make_parts(PreparedMesh& prepared);
+  std::string make_hull(PreparedMesh& prepared) const;
+  std::string make_surface(PreparedMesh& prepared) const;
+  std::string make_parts(PreparedMesh& prepared) const;
 
   const plumb::PLUMB_ABI::assets::Scene& scene_;
   InstantiateOptions options_;

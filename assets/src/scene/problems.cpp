@@ -11,8 +11,13 @@ constexpr std::size_t kShownProblems = 20;
 }  // namespace
 
 void Problems::add(int line, const std::string& what, const std::string& remedy) {
+  add(line, 0, what, remedy);
+}
+
+void Problems::add(int line, int column, const std::string& what, const std::string& remedy) {
   std::string text = file_;
   if (line > 0) text += ":" + std::to_string(line);
+  if (column > 0) text += ":" + std::to_string(column);
   text += ": " + what;
   if (!remedy.empty()) text += "; " + remedy;
   lines_.push_back({line, std::move(text)});

@@ -16,6 +16,8 @@ class Problems {
 
   // "file:line: what; remedy". Line 0: it concerns the file as a whole.
   void add(int line, const std::string& what, const std::string& remedy);
+  // "file:line:column: what; remedy", where the column is known; 0: it is not.
+  void add(int line, int column, const std::string& what, const std::string& remedy);
   [[nodiscard]] bool empty() const { return lines_.empty(); }
   [[nodiscard]] std::size_t count() const { return lines_.size(); }
   [[nodiscard]] const std::string& file() const { return file_; }

@@ -17,6 +17,10 @@ class ShapeMaker {
       : scene_(scene), meshes_(meshes) {}
 
   Result<Shape> make(const SceneCollider& collider);
+  // Whether a collider has asked for it.
+  [[nodiscard]] bool has_heightfield(const std::string& name) const {
+    return heightfields_.contains(name);
+  }
 
  private:
   Result<Shape> make_mesh(const std::string& name, const Shape& asked);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/status_line.h"
 #include "plumb/assets/decompose.h"
 #include "plumb/assets/mass.h"
 #include "plumb/assets/report.h"
@@ -58,7 +59,11 @@ int inspect_mesh(const MeshOptions& options) {
                                              .max_parts = options.max_parts};
   }
 
-  const auto inspection = assets::inspect_mesh_file(options.file, inspect);
+  const auto inspection = [&] {
+    StatusLine status(true);
+    inspect.on_work = [&](const std::string& work) { status.show(work); };
+    return assets::inspect_mesh_file(options.file, inspect);
+  }();
   if (!inspection.ok()) {
     complain(inspection.error());
     return kBadInput;

@@ -1,12 +1,30 @@
 #include "cli/output_path.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
 
 namespace plumb::cli {
 namespace fs = std::filesystem;
+
+namespace {
+
+// Why no file can be made beside this one; empty if one can. Permissions alone do not tell: the
+// folders of the system's own make no files for anybody.
+std::string why_none_beside(const std::string& path) {
+  const std::string probe = path + "." + std::to_string(getpid()) + ".probe";
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) return std::strerror(errno);
+  close(file);
+  unlink(probe.c_str());
+  return {};
+}
+
+}  // namespace
 
 std::string why_no_file(const std::string& path) {
   std::error_code ignored;
@@ -18,9 +36,9 @@ std::string why_no_file(const std::string& path) {
            "; make it first or give another name";
   }
   const bool there = fs::exists(path, ignored);
-  if (!is_device(path) && access(folder.c_str(), W_OK | X_OK) != 0) {
+  if (const std::string reason = is_device(path) ? "" : why_none_beside(path); !reason.empty()) {
     return path + " cannot be written: no files can be made in the folder " + folder.string() +
-           "; give another name";
+           " (" + reason + "); give another name";
   }
   if (there && access(path.c_str(), W_OK) != 0) {
     return path + " cannot be written: it is there already and may not be changed; give another " +

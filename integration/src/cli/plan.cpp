@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "cli/commands.h"
+#include "cli/status_line.h"
 #include "plumb/assets/scene.h"
 #include "plumb/world.h"
 
@@ -16,7 +17,11 @@ int print_plan(const std::string& path) {
     return kBadInput;
   }
   PhysicsWorld world;
-  const auto instance = assets::instantiate(*scene, world, {.guarded = true});
+  const auto instance = [&] {
+    StatusLine status(true);
+    const auto show = [&](const std::string& work) { status.show(work); };
+    return assets::instantiate(*scene, world, {.guarded = true, .on_work = show});
+  }();
   if (!instance.ok()) {
     complain(instance.error());
     return kBadInput;

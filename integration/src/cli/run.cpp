@@ -8,6 +8,7 @@
 #include "cli/read_number.h"
 #include "cli/recording_file.h"
 #include "cli/run_summary.h"
+#include "cli/status_line.h"
 #include "plumb/assets/scene.h"
 #include "plumb/world.h"
 
@@ -91,8 +92,11 @@ int run_scene(const RunOptions& options) {
   scene.settings.profiling = !options.output.empty();  // a recording shows the stages' times
   std::unique_ptr<JobSystem> jobs;  // outlives the world; made when all meshes are read by forks
   PhysicsWorld world;
-  const assets::Result<assets::SceneInstance> instance =
-      assets::instantiate(scene, world, {.guarded = true});
+  const assets::Result<assets::SceneInstance> instance = [&] {
+    StatusLine status(!options.quiet);
+    const auto show = [&](const std::string& work) { status.show(work); };
+    return assets::instantiate(scene, world, {.guarded = true, .on_work = show});
+  }();
   if (!instance.ok()) {
     complain(instance.error());
     return kBadInput;
@@ -123,12 +127,9 @@ int run_scene(const RunOptions& options) {
   }
   if (!options.quiet) summary.print(scene, *instance, world, recording, options.output);
   if (!wrong.empty()) complain(wrong);
-  if (summary.quarantined > 0) {
-    complain(std::to_string(summary.quarantined) +
-             " bodies became non-finite and were taken out of the run");
-  }
+  for (const std::string& lost : summary.lost_bodies(*instance, world)) complain(lost);
   if (stop_wanted != 0) complain("stopped at step " + std::to_string(summary.steps));
-  const bool good = wrong.empty() && summary.quarantined == 0 && stop_wanted == 0;
+  const bool good = wrong.empty() && summary.lost.empty() && stop_wanted == 0;
   return good ? kOk : kFailed;
 }
 

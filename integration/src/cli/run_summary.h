@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "cli/recording_file.h"
 #include "plumb/assets/scene.h"
@@ -17,7 +18,12 @@ struct RunSummary {
   std::uint64_t contact_points = 0;  // at the end
   std::uint64_t most_contact_points = 0;
   double largest_penetration = 0;  // [m]
-  std::uint64_t quarantined = 0;
+  // Bodies whose state became non-finite.
+  struct Lost {
+    std::uint64_t step = 0;
+    BodyId body;
+  };
+  std::vector<Lost> lost;
   double first_energy = 0;     // [J]
   double last_energy = 0;      // [J]
   double lowest_energy = 0;    // [J] so far
@@ -26,6 +32,9 @@ struct RunSummary {
 
   void begin(const PhysicsWorld& world);
   void add(const PhysicsWorld& world, const StepReport& report);
+  // A line for each of the first bodies that were taken out of the run, and one for the others.
+  [[nodiscard]] std::vector<std::string> lost_bodies(const assets::SceneInstance& instance,
+                                                     const PhysicsWorld& world) const;
   void print(const assets::Scene& scene, const assets::SceneInstance& instance,
              const PhysicsWorld& world, const RecordingFile& recording,
              const std::string& output) const;

@@ -40,12 +40,13 @@ struct ImportReport {
   Axis file_up = Axis::Y;
   Origin up_origin = Origin::Unknown;
   Axis world_up = Axis::Y;
-  std::size_t parts = 0;           // meshes placed by nodes, instances counted
-  std::size_t mirrored_parts = 0;  // placed by a reflecting transform: their faces were turned
-  std::size_t skinned_parts = 0;   // have bones: taken in bind pose
-  std::size_t dropped_points = 0;  // faces of one vertex
-  std::size_t dropped_lines = 0;   // faces of two
-  double coordinate_rounding = 0;  // [m] the reader hands out single precision
+  std::size_t parts = 0;            // meshes placed by nodes, instances counted
+  std::size_t mirrored_parts = 0;   // placed by a reflecting transform: their faces were turned
+  std::size_t skinned_parts = 0;    // have bones: taken in bind pose
+  std::size_t dropped_points = 0;   // faces of one vertex
+  std::size_t dropped_lines = 0;    // faces of two
+  double coordinate_rounding = 0;   // [m] the reader hands out single precision
+  std::vector<std::string> losses;  // what of the surface the mesh has not, and the remedy
   std::vector<std::string> notes;
 };
 

@@ -9,6 +9,7 @@
 #include "plumb/assets/hull.h"
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
+#include "plumb/assets/progress.h"
 #include "plumb/assets/repair.h"
 #include "plumb/assets/result.h"
 
@@ -35,6 +36,7 @@ struct InspectOptions {
   std::optional<DecomposeOptions> parts = {};  // unset: the mesh is not decomposed
   bool guarded = true;                         // read in a child process (import_mesh_guarded)
   double time_limit = 60;                      // [s] of the guarded reading
+  WorkListener on_work = {};
 };
 
 // Fails only if the file cannot be read; what is wrong with the mesh is in the inspection.

@@ -23,6 +23,7 @@
 #include "plumb/assets/import.h"
 #include "plumb/assets/mass.h"
 #include "plumb/assets/mesh.h"
+#include "plumb/assets/progress.h"
 #include "plumb/assets/repair.h"
 #include "plumb/assets/result.h"
 #include "plumb/compound.h"
@@ -234,9 +235,11 @@ struct SceneInstance {
   std::vector<SceneInstanceJoint> joints;    // the same for joints
   std::vector<SceneInstanceEffect> effects;  // the same for effects
   std::vector<SceneInstanceMesh> meshes;     // those that bodies use
-  // Worth knowing: what a repair changed, meshes of a size that hints at a wrong unit, dynamic
-  // bodies whose colliders bring no mass, concave meshes that collide as their hull, surfaces with
-  // open seams, parts that miss the distance asked for.
+  // Worth knowing: what a repair changed, what a reader had to leave out, meshes of a size that
+  // hints at a wrong unit, meshes that are not closed, dynamic bodies whose colliders bring no
+  // mass, concave meshes that collide as their hull, surfaces with open seams, parts that miss the
+  // distance asked for, joints whose sides begin far apart or whose angles read like degrees, files
+  // that no body uses.
   std::vector<std::string> notes;
   std::map<std::string, std::size_t, std::less<>> index_of;  // name to index in `bodies`
 
@@ -251,6 +254,7 @@ struct InstantiateOptions {
   // its reader is an error like any other. For tools; a game with threads must not fork.
   bool guarded = false;
   double time_limit = 60;  // [s] > 0 for each guarded reading
+  WorkListener on_work = {};
 };
 
 // Builds the scene in the world and gives the world its settings. On an error the world is left
