@@ -10,12 +10,14 @@ namespace {
 std::atomic<bool> counting{false};
 std::atomic<long> count{0};
 
-void* taken(std::size_t bytes, std::size_t alignment) {
+void* taken_or_null(std::size_t bytes, std::size_t alignment) noexcept {
   if (counting) ++count;
-  void* const memory =
-      alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__
-          ? std::malloc(bytes > 0 ? bytes : 1)
-          : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  return alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__
+             ? std::malloc(bytes > 0 ? bytes : 1)
+             : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+void* taken(std::size_t bytes, std::size_t alignment) {
+  void* const memory = taken_or_null(bytes, alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -38,6 +40,13 @@ long end_counting() {
 void* operator new(std::size_t bytes) { return taken(bytes, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return taken(bytes, static_cast<std::size_t>(alignment));
+}
+// (a sanitizer brings its own of these two, whose memory std::free must not be given)
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return taken_or_null(bytes, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return taken_or_null(bytes, static_cast<std::size_t>(alignment));
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }

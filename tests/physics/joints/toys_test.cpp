@@ -46,12 +46,12 @@ TEST_P(Toys, ComeDown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Toys,
-                         testing::Values(Kind{"ball", 0, 30, 0}, Kind{"hinge", 1, 30, 2},
+                         testing::Values(Kind{"ball", 0, 30, 0}, Kind{"hinge", 1, 30, 3},
                                          Kind{"slider", 2, 30, 0}, Kind{"fixed", 3, 30, 0},
                                          Kind{"distance", 4, 15, 0}, Kind{"rope", 5, 15, 0},
                                          Kind{"spring", 6, 15, 0}, Kind{"cone_twist", 7, 30, 0},
                                          Kind{"six_dof", 8, 30, 2}, Kind{"mixture", -1, 60, 1}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& played) { return std::string(played.param.name); });
 
 }  // namespace
 }  // namespace plumb::inline PLUMB_ABI

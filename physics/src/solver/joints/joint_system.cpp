@@ -66,9 +66,7 @@ void make_diagonal(const JointBlock& block, SystemRow* rows, double compliance, 
       rows[i].acts = false;
       for (int j = 0; j < block.rows; ++j) K.at[i][j] = K.at[j][i] = 0;
     }
-    const double own =
-        i < block.held ? compliance : std::max(compliance, joint_tolerance::kLawCompliance);
-    K.at[i][i] = rows[i].acts ? K.at[i][i] * (1 + own) + rows[i].give : 1;
+    K.at[i][i] = rows[i].acts ? K.at[i][i] * (1 + compliance) + rows[i].give : 1;
     rows[i].size = K.at[i][i];
   }
 }

@@ -15,11 +15,6 @@ namespace plumb::inline PLUMB_ABI::detail::joint_tolerance {
 inline constexpr double kCompliance = 1e-11;
 inline constexpr double kLoopCompliance = 1e-5;
 
-// ... and of what acts along free coordinates: limits, motors and frictions. Near half a turn the
-// coordinates of a joint may all but coincide, and what their limits ask for contradict each other.
-// A limit gives way by this part of the speed at which it is hit, for one substep.
-inline constexpr double kLawCompliance = 1e-6;
-
 // How much friction against turning yields in one of Newton's steps where limits bound the turn
 // too, relative to what it can turn [-]. Five rows of three angles ask for rates that contradict
 // each other by round-off: this bounds the impulses at which they do. What is left goes in the next
