@@ -111,6 +111,18 @@ inline Ground random_ground(Random& random, double size) {
   }
 }
 
+// Above a random place of the surface by this much [m], in front of it; turned in any way, or as
+// the ground is.
+inline Transform above(Random& random, const Ground& ground, double least, double most) {
+  const Triangle& under = ground.triangles[static_cast<std::size_t>(
+      random.below(static_cast<int>(ground.triangles.size())))];
+  const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
+  const V at = under.corner[0] + u * (under.corner[1] - under.corner[0]) +
+               v * (under.corner[2] - under.corner[0]) + random.uniform(least, most) * under.normal;
+  return {{static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
+          random.below(3) == 0 ? ground.placed.q : random.rotation()};
+}
+
 // Whether a normal is one along which a point of the manifold can be touched: all triangles there
 // go downhill along it, or it is that of one of them. The other points may lie beside. `half` [m]:
 // half of the thickness of what touches.

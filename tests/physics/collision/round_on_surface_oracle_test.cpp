@@ -87,13 +87,7 @@ TEST(RoundOnSurfaceOracle, TheNearestContactIsAsFarAsEveryTriangleSays) {
     const Ground ground = random_ground(random, size);
     const CollisionShape shape = random_round(random, trial % kKinds, 0.6 * size);
     const double reach = static_cast<double>(bounding_radius(shape));
-    const Triangle& under = ground.triangles[static_cast<std::size_t>(
-        random.below(static_cast<int>(ground.triangles.size())))];
-    const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
-    const V on = under.corner[0] + u * (under.corner[1] - under.corner[0]) +
-                 v * (under.corner[2] - under.corner[0]);
-    const V at = on + random.uniform(0.3, 1.2) * reach * under.normal;
-    const Transform placed{as_vec(at), random.below(3) == 0 ? ground.placed.q : random.rotation()};
+    const Transform placed = above(random, ground, 0.3 * reach, 1.2 * reach);
     const oracle::Body body(shape, placed);
     const Apart truth = apart_from(ground, body, oracle::vec(placed.p), reach);
     if (!(truth.distance > 0) || !truth.in_front) continue;

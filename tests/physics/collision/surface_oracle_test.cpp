@@ -84,16 +84,8 @@ TEST(SurfaceOracle, TheNearestContactIsAsFarAsEveryFeatureSays) {
     const Ground ground = random_ground(random, size);
     const CollisionShape shape = random_convex(random, trial % kKinds, 0.6 * size);
     const double reach = static_cast<double>(bounding_radius(shape));
-    // Above a random place of the surface, in front of it.
-    const Triangle& under = ground.triangles[static_cast<std::size_t>(
-        random.below(static_cast<int>(ground.triangles.size())))];
-    const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
-    const V on = under.corner[0] + u * (under.corner[1] - under.corner[0]) +
-                 v * (under.corner[2] - under.corner[0]);
-    const V at = on + random.uniform(0.3, 1.3) * reach * under.normal;
-    const Transform placed{
-        {static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
-        random.below(3) == 0 ? ground.placed.q : random.rotation()};
+    const Transform placed = above(random, ground, 0.3 * reach, 1.3 * reach);
+    const V at = oracle::vec(placed.p);
     const oracle::Solid solid = oracle::solid_of(shape, placed);
     const double distance = distance_from(ground, solid);
     if (!(distance > 0)) continue;

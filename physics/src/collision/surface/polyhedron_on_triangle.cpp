@@ -55,27 +55,6 @@ class Touch {
   }
 
  private:
-  // Which part of the triangle lies farthest along a direction.
-  SurfaceFeature farthest(NumVec n, Num& along) const {
-    const Num d[3] = {dot(n, t_.corner[0]), dot(n, t_.corner[1]), dot(n, t_.corner[2])};
-    along = std::max(d[0], std::max(d[1], d[2]));
-    const Num level = along - kAttained * on_.thickness;
-    int count = 0, last = 0;
-    for (int i = 0; i < 3; ++i)
-      if (d[i] >= level) ++count, last = i;
-    if (count == 3) return {Kind::Face, 0};
-    if (count == 1) return {Kind::Corner, last};
-    for (int k = 0; k < 3; ++k)
-      if (d[k] >= level && d[(k + 1) % 3] >= level) return {Kind::Edge, k};
-    return {Kind::Corner, last};
-  }
-
-  bool allows(SurfaceFeature feature, NumVec n) const {
-    if (feature.kind == Kind::Face) return false;  // the triangle's own normal, or its back
-    return feature.kind == Kind::Edge ? edge_allows(t_, feature.index, n)
-                                      : on_.surface.corner_allows(t_, feature.index, n);
-  }
-
   // Whether a face of the polyhedron parts the two; notes how near to that it is.
   bool is_parted() {
     for (int k = 0; k < p_.face_count(); ++k) {
@@ -94,9 +73,9 @@ class Touch {
     for (int k = 0; k < p_.face_count(); ++k) {
       const NumVec n = -p_.normal(k);
       Num along;
-      const SurfaceFeature feature = farthest(n, along);
+      const SurfaceFeature feature = farthest_part(on_, t_, n, along);
       const Num s = -p_.offset(k) - along;
-      if (s > best.separation && allows(feature, n)) best = {n, s, feature, k, -1};
+      if (s > best.separation && cone_allows(on_, t_, feature, n)) best = {n, s, feature, k, -1};
     }
   }
 
@@ -208,7 +187,7 @@ class Touch {
     NumVec n = closest.normal;
     if (!(dot(n, t_.normal) > -kConeSlack)) return false;
     Num along;
-    const SurfaceFeature feature = farthest(n, along);
+    const SurfaceFeature feature = farthest_part(on_, t_, n, along);
     bool of_face = false;
     if (feature.kind == Kind::Face || !allow_normal(on_, t_, feature, n, of_face) || of_face)
       return false;  // over_triangle() has seen it

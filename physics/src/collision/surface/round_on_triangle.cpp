@@ -55,27 +55,6 @@ class Touch {
   }
 
  private:
-  // Which part of the triangle lies farthest along a direction.
-  SurfaceFeature farthest(NumVec n, Num& along) const {
-    const Num d[3] = {dot(n, t_.corner[0]), dot(n, t_.corner[1]), dot(n, t_.corner[2])};
-    along = std::max(d[0], std::max(d[1], d[2]));
-    const Num level = along - kAttained * on_.thickness;
-    int count = 0, last = 0;
-    for (int i = 0; i < 3; ++i)
-      if (d[i] >= level) ++count, last = i;
-    if (count == 3) return {Kind::Face, 0};
-    if (count == 1) return {Kind::Corner, last};
-    for (int k = 0; k < 3; ++k)
-      if (d[k] >= level && d[(k + 1) % 3] >= level) return {Kind::Edge, k};
-    return {Kind::Corner, last};
-  }
-
-  bool allows(SurfaceFeature feature, NumVec n) const {
-    if (feature.kind == Kind::Face) return false;  // the triangle's own normal, or its back
-    return feature.kind == Kind::Edge ? edge_allows(t_, feature.index, n)
-                                      : on_.surface.corner_allows(t_, feature.index, n);
-  }
-
   // From the axis of the core, perpendicular to it [m].
   [[nodiscard]] NumVec aside(NumVec x) const {
     const NumVec d = x - core_.origin();
@@ -130,10 +109,10 @@ class Touch {
 
   void consider(NumVec n, Axis& best) {
     Num along;
-    const SurfaceFeature feature = farthest(n, along);
+    const SurfaceFeature feature = farthest_part(on_, t_, n, along);
     const Num room = dot(n, core_.support(-n)) - along;
     if (room > Num(0)) nearest_exit_ = std::max(nearest_exit_, room);
-    if (room > best.room && allows(feature, n)) best = {n, room, feature};
+    if (room > best.room && cone_allows(on_, t_, feature, n)) best = {n, room, feature};
   }
 
   // Directions into the flat ends.

@@ -47,8 +47,7 @@ bool allow_normal(const ConvexOnSurface& on, const SurfaceTriangle& t, SurfaceFe
     n = t.normal;
     return true;
   }
-  return feature.kind == SurfaceFeature::Kind::Edge ? edge_allows(t, feature.index, n)
-                                                    : on.surface.corner_allows(t, feature.index, n);
+  return cone_allows(on, t, feature, n);
 }
 
 void polygon_of(const SurfaceTriangle& t, FacePolygon& out) {

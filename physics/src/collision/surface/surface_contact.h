@@ -1,6 +1,8 @@
 // Contacts of one convex shape with the triangles of a surface, in the surface's frame.
 #pragma once
 
+#include <algorithm>
+
 #include "collision/convex_core.h"
 #include "collision/part_manifolds.h"
 #include "collision/surface/surface_triangle.h"
@@ -48,6 +50,30 @@ inline constexpr std::uint32_t kFeaturePart = 1U << 31;
 std::uint32_t feature_part(const SurfaceTriangle& t, SurfaceFeature feature);
 // The same for all coplanar triangles.
 std::uint32_t plane_part(NumVec normal, NumVec point, Num cell);
+
+// Which part of the triangle lies farthest along n, and how far [m].
+inline SurfaceFeature farthest_part(const ConvexOnSurface& on, const SurfaceTriangle& t, NumVec n,
+                                    Num& along) {
+  using Kind = SurfaceFeature::Kind;
+  const Num d[3] = {dot(n, t.corner[0]), dot(n, t.corner[1]), dot(n, t.corner[2])};
+  along = std::max(d[0], std::max(d[1], d[2]));
+  const Num level = along - kAttained * on.thickness;
+  int count = 0, last = 0;
+  for (int i = 0; i < 3; ++i)
+    if (d[i] >= level) ++count, last = i;
+  if (count == 3) return {Kind::Face, 0};
+  if (count == 1) return {Kind::Corner, last};
+  for (int k = 0; k < 3; ++k)
+    if (d[k] >= level && d[(k + 1) % 3] >= level) return {Kind::Edge, k};
+  return {Kind::Corner, last};
+}
+// Whether the cone of an edge or a corner holds n.
+inline bool cone_allows(const ConvexOnSurface& on, const SurfaceTriangle& t, SurfaceFeature feature,
+                        NumVec n) {
+  if (feature.kind == SurfaceFeature::Kind::Face) return false;  // its own normal, or its back
+  return feature.kind == SurfaceFeature::Kind::Edge ? edge_allows(t, feature.index, n)
+                                                    : on.surface.corner_allows(t, feature.index, n);
+}
 
 // Snaps a direction to the triangle's normal where it is that one to kSnapAngle; else says whether
 // the feature's cone holds it.

@@ -10,9 +10,6 @@ constexpr Real kTwoPi = Real(6.283185307179586476925);
 constexpr Real kNoDirection = Real(1e-6);
 // Sine of half a turn [-] up to which its rotation vector is twice the sine: to 2e-7 of it.
 constexpr Real kSmallTurn = Real(1e-3);
-// 1 + the cosine of a swing [-] below which the twist about it loses hold: from 168 degrees on a
-// turn of the body hardly tells which part of it is twist, and its gradient would grow without end.
-constexpr Real kLeastTwist = Real(0.02);
 
 Vec unit(int i) {
   return {i == 0 ? Real(1) : Real(0), i == 1 ? Real(1) : Real(0), i == 2 ? Real(1) : Real(0)};
@@ -206,7 +203,8 @@ void gradient_of(Coordinate coordinate, const PlacedPair& at, BodyJacobian& a, B
     case Coordinate::TwistZ: {
       const int i = index_after(coordinate, Coordinate::Twist);
       const Vec x = axis(at.frame_a, i), x_b = axis(at.frame_b, i);
-      g = (Real(1) / std::max(Real(1) + dot(x, x_b), kLeastTwist)) * (x + x_b);
+      const Real c = Real(1) + dot(x, x_b);
+      g = c > kNoDirection ? (Real(1) / c) * (x + x_b) : x;
       break;
     }
     case Coordinate::AxisXAboutY:
