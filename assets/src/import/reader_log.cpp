@@ -40,30 +40,19 @@ class Listener final : public Assimp::Logger {
   }
 };
 
-std::mutex guard;           // of the two below
-std::size_t listening = 0;  // logs alive
-Listener* listener = nullptr;
+std::mutex guard;  // of assimp's logger
 
 }  // namespace
 
-ReaderLog::ReaderLog() {
+ReaderLog::ReaderLog() : outer_(heard) {
+  // It stays: other threads may be about to write to it, in readers that end after their log.
   const std::lock_guard<std::mutex> lock(guard);
-  ++listening;
-  if (Assimp::DefaultLogger::isNullLogger()) {
-    listener = new Listener;  // NOLINT(cppcoreguidelines-owning-memory): assimp owns its logger
-    Assimp::DefaultLogger::set(listener);
-  }
+  if (Assimp::DefaultLogger::isNullLogger())
+    Assimp::DefaultLogger::set(new Listener);  // NOLINT(cppcoreguidelines-owning-memory): assimp's
   heard = &complaints_;
 }
 
-ReaderLog::~ReaderLog() {
-  const std::lock_guard<std::mutex> lock(guard);
-  heard = nullptr;
-  if (--listening > 0) return;
-  if (listener != nullptr && Assimp::DefaultLogger::get() == listener)
-    Assimp::DefaultLogger::set(nullptr);  // deletes it
-  listener = nullptr;
-}
+ReaderLog::~ReaderLog() { heard = outer_; }
 
 std::string ReaderLog::damage() const {
   for (const std::string& complaint : complaints_) {

@@ -10,8 +10,9 @@
 namespace plumb::inline PLUMB_ABI::assets::detail {
 
 // Collects warnings and errors of the calling thread while it lives, through the one logger that
-// assimp has for all threads. An application that has set a logger of its own for assimp keeps it:
-// that one hears it all then, and nothing is heard here.
+// assimp has for all threads, which is set once and heard by nobody in between. An application that
+// has set a logger of its own for assimp keeps it: that one hears it all then, and nothing is heard
+// here.
 class ReaderLog {
  public:
   ReaderLog();
@@ -24,6 +25,7 @@ class ReaderLog {
 
  private:
   std::vector<std::string> complaints_;
+  std::vector<std::string>* outer_;  // of the log that this one stands in, if any
 };
 
 }  // namespace plumb::inline PLUMB_ABI::assets::detail
