@@ -119,11 +119,9 @@ Real coordinate_of(Coordinate coordinate, const PlacedPair& at, Real last_angle)
     case Coordinate::TurnZ:
       return Real(2) * relative(at).z;
     case Coordinate::RotationX:
-      return turn_of(at).r.x;
     case Coordinate::RotationY:
-      return turn_of(at).r.y;
     case Coordinate::RotationZ:
-      return turn_of(at).r.z;
+      return component(turn_of(at).r, index_after(coordinate, Coordinate::RotationX));
     case Coordinate::Twist: {
       const Rotation q = relative(at);
       const Real angle = Real(2) * arc_tangent(q.x, q.w);
