@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "own_folder.h"
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/import.h"
 #include "plumb/assets/report.h"
@@ -23,20 +24,8 @@ namespace {
 
 using namespace assets;
 
-class ImportLosses : public testing::Test {
+class ImportLosses : public OwnFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::path(testing::TempDir()) / (std::string("plumb_losses_") + info->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path path = folder_ / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path.string();
-  }
   // The error of reading this text, which has to name the file.
   [[nodiscard]] std::string error_of(const std::string& name, const std::string& text) const {
     const std::string path = write(name, text);
@@ -46,8 +35,6 @@ class ImportLosses : public testing::Test {
     EXPECT_EQ(import_mesh_guarded(path).error(), imported.error());
     return imported.error();
   }
-
-  std::filesystem::path folder_;
 };
 
 bool has(const std::string& text, const std::string& part) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "own_folder.h"
 #include "plumb/assets/certificate.h"
 #include "plumb/assets/report.h"
 #include "sample_meshes.h"
@@ -19,25 +20,7 @@ namespace {
 
 using namespace assets;
 
-// A folder of its own, gone at the end.
-class ImportTest : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::path(testing::TempDir()) / (std::string("plumb_import_") + info->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path path = folder_ / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path.string();
-  }
-
- private:
-  std::filesystem::path folder_;
-};
+class ImportTest : public OwnFolder {};
 
 // A box of 1 x 2 x 3 units with its low corner at the origin.
 std::string obj_box() {
