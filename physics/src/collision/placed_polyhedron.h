@@ -1,6 +1,8 @@
 // A hull or box copied into the frame in which a pair is tested, in double precision.
 #pragma once
 
+#include <concepts>
+
 #include "collision/face_overlay.h"
 #include "collision/segment.h"
 
@@ -16,8 +18,15 @@ class PlacedPolyhedron {
   [[nodiscard]] int vertex_count() const { return vertex_count_; }
   [[nodiscard]] int face_count() const { return face_count_; }
   [[nodiscard]] int edge_count() const { return edge_count_; }
-  [[nodiscard]] NumVec vertex(int i) const { return vertices_[i]; }
-  [[nodiscard]] NumVec normal(int k) const { return normals_[k]; }
+  // By a counter, or by the index that an edge holds.
+  template <std::integral Index>
+  [[nodiscard]] NumVec vertex(Index i) const {
+    return vertices_[i];
+  }
+  template <std::integral Index>
+  [[nodiscard]] NumVec normal(Index k) const {
+    return normals_[k];
+  }
   [[nodiscard]] Num offset(int k) const { return offsets_[k]; }  // [m]
   [[nodiscard]] const Edge& edge(int i) const { return edges_[i]; }
   [[nodiscard]] Segment segment(int i) const {

@@ -23,7 +23,7 @@ constexpr std::size_t kFewestRows = 2;
 StepList<std::uint8_t> bodies_that_bounce(WorldState& world) {
   StepList<std::uint8_t> bounces(&world.memory);
   if (world.bouncing_rows.empty()) return bounces;
-  bounces.assign(world.bodies.dense_count(), 0);
+  bounces.assign(world.bodies.awake_end, 0);
   for (const std::uint32_t k : world.bouncing_rows) {
     const ContactRow<Real>& row = world.rows[k];
     if (world.substep[row.body_a].constrained) bounces[row.body_a] = 1;

@@ -328,7 +328,7 @@ void build_rows(WorldState& world) {
   world.substep.resize(bodies.dense_count());
   world.delta[0] = {};
   world.substep[0] = {};
-  world.contacts_changed.assign(bodies.dense_count(), 0);
+  world.contacts_changed.assign(bodies.awake_end, 0);
   // Bodies first: what a row reads of them, and which of them are held by a row.
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {

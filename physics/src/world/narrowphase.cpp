@@ -310,14 +310,19 @@ void take_findings(WorldState& world) {
   world.contacts_fit = world.pairs.changes();
 }
 
+// Dense index of a body that contacts push; 0, the world itself, for any other one.
+std::uint32_t dense_if_pushed(const BodyStore& bodies, std::uint32_t body) {
+  const std::uint32_t dense = bodies.info[body].dense;
+  return dense < bodies.awake_end && bodies.mass[dense].mass > Real(0) ? dense : 0;
+}
+
 void note_depth(WorldState& world, const Contact& contact) {
-  const BodyStore& bodies = world.bodies;
-  if (!world.deep_overlap) world.overlaps_deeply.assign(bodies.dense_count(), 0);
+  if (!world.deep_overlap) world.overlaps_deeply.assign(world.bodies.awake_end, 0);
   world.deep_overlap = true;
   const Pair& pair = world.pairs[contact.pair];
   for (const std::uint32_t body : {pair.body_a, pair.body_b}) {
-    const std::uint32_t dense = bodies.info[body].dense;
-    if (bodies.mass[dense].mass > Real(0)) world.overlaps_deeply[dense] = 1;
+    const std::uint32_t dense = dense_if_pushed(world.bodies, body);
+    if (dense != 0) world.overlaps_deeply[dense] = 1;
   }
 }
 
@@ -330,10 +335,11 @@ void spread_depth(WorldState& world) {
     const StepList<std::uint8_t> before(deep.begin(), deep.end(), &world.memory);
     for (const Contact& contact : world.contacts) {
       const Pair& pair = world.pairs[contact.pair];
-      const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
+      const std::uint32_t a = dense_if_pushed(bodies, pair.body_a);
+      const std::uint32_t b = dense_if_pushed(bodies, pair.body_b);
       if ((before[a] | before[b]) == 0) continue;
-      if (bodies.mass[a].mass > Real(0)) deep[a] = 1;
-      if (bodies.mass[b].mass > Real(0)) deep[b] = 1;
+      if (a != 0) deep[a] = 1;
+      if (b != 0) deep[b] = 1;
     }
   }
 }
