@@ -1,5 +1,5 @@
 // A million rays through ten thousand bodies: nearest hit, one at a time and as a batch, against
-// Bullet where PLUMB_PEERS is on. The same boxes, the same rays; each checks that it found as much.
+// Bullet and Box3D where PLUMB_PEERS is on. The same boxes, the same rays; each counts its hits.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -10,6 +10,9 @@
 #include <btBulletCollisionCommon.h>
 
 #include <memory>
+#endif
+#ifdef PLUMB_HAS_BOX3D
+#include <box3d/box3d.h>
 #endif
 
 namespace plumb::inline PLUMB_ABI {
@@ -152,6 +155,42 @@ void rays_bullet(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * kRays);
 }
 BENCHMARK(rays_bullet)->Unit(benchmark::kMillisecond);
+#endif
+
+#ifdef PLUMB_HAS_BOX3D
+b3Vec3 box3d(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+// Compiled for this processor, in float. A box that holds the origin is passed by.
+void rays_box3d(benchmark::State& state) {
+  b3WorldDef definition = b3DefaultWorldDef();
+  const b3WorldId world = b3CreateWorld(&definition);
+  for (const Placing& p : placings()) {
+    b3BodyDef body = b3DefaultBodyDef();
+    const Eigen::Quaterniond q = p.turn.cast<double>();
+    body.position = box3d(p.position);
+    body.rotation = {box3d(Eigen::Vector3d(q.vec())), static_cast<float>(q.w())};
+    b3ShapeDef shape = b3DefaultShapeDef();
+    const b3Vec3 h = box3d(p.half);
+    const b3BoxHull hull = b3MakeBoxHull(h.x, h.y, h.z);
+    b3CreateHullShape(b3CreateBody(world, &body), &shape, &hull.base);
+  }
+  b3World_RebuildStaticTree(world);
+  const std::vector<Ray> all = rays();
+  std::int64_t hits = 0;
+  for (auto _ : state) {
+    hits = 0;
+    for (const Ray& ray : all)
+      hits += b3World_CastRayClosest(world, box3d(ray.origin.cast<double>()),
+                                     box3d(ray.translation.cast<double>()), b3DefaultQueryFilter())
+                  .hit;
+  }
+  state.counters["hits"] = static_cast<double>(hits);
+  state.SetItemsProcessed(state.iterations() * kRays);
+  b3DestroyWorld(world);
+}
+BENCHMARK(rays_box3d)->Unit(benchmark::kMillisecond);
 #endif
 
 }  // namespace

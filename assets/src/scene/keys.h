@@ -19,8 +19,9 @@ inline constexpr std::string_view kScene[] = {
     "bodies",   "joints",      "excluded_pairs", "effects"};
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
 inline constexpr std::string_view kSettings[] = {
-    "gravity",        "substeps",      "contact_frequency", "contact_damping_ratio", "rotation",
-    "contact_solver", "warm_starting", "sleeping",          "time_to_sleep"};
+    "gravity",  "substeps",       "contact_frequency", "contact_damping_ratio",
+    "rotation", "contact_solver", "joint_order",       "warm_starting",
+    "sleeping", "time_to_sleep"};
 inline constexpr std::string_view kMaterial[] = {
     "friction",           "restitution", "friction_rule", "restitution_rule", "rolling_friction",
     "torsional_friction", "kind",        "grain",         "grain_friction",   "adhesion"};

@@ -44,6 +44,7 @@ void read_settings(const JsonNode& node, WorldSettings& settings, Problems& prob
   in.number("contact_damping_ratio", settings.contact_damping_ratio, kNotNegative);
   in.choice("rotation", kRotationMethods, settings.rotation);
   in.choice("contact_solver", kContactSolvers, settings.contact_solver);
+  in.integer("joint_order", settings.joint_order, 2, 4);
   in.flag("warm_starting", settings.warm_starting);
   in.flag("sleeping", settings.sleeping);
   in.number("time_to_sleep", settings.time_to_sleep, kNotNegative);

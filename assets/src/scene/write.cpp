@@ -68,6 +68,7 @@ Json json_of(const WorldSettings& settings) {
           {"contact_damping_ratio", tidy(settings.contact_damping_ratio)},
           {"rotation", word(scene::kRotationMethods, settings.rotation)},
           {"contact_solver", word(scene::kContactSolvers, settings.contact_solver)},
+          {"joint_order", settings.joint_order},
           {"warm_starting", settings.warm_starting},
           {"sleeping", settings.sleeping},
           {"time_to_sleep", tidy(settings.time_to_sleep)}};

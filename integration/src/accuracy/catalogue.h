@@ -31,6 +31,7 @@ struct CaseInfo {
   // measured too.
   std::optional<std::vector<double>> exact;
   bool turns = false;       // rotation methods are compared
+  bool swings = false;      // joint orders are compared
   bool touches = false;     // warm starting is compared
   bool flies_fast = false;  // continuous collision is compared
   double measure = 0;       // published measure = this times the square of the error

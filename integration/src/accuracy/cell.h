@@ -20,6 +20,7 @@ struct Knobs {
   int substeps = 4;      // [-] 1..64
   int rotation = 0;      // a RotationMethod by its number
   int solver = 0;        // a ContactSolver by its number
+  int joint_order = 2;   // [-] 2 or 4
   Precision precision = Precision::F64;
   bool warm_start = true;
   bool continuous = false;  // RigidBody::continuous of what moves fast

@@ -34,6 +34,19 @@ Series step_series(std::string label, const CaseInfo& info, bool quick, Knobs kn
 
 constexpr int kNewton = 1;  // in solver_names()
 
+// What of a setting is not as usual: ", Newton, no warm start".
+std::string exceptions_of(const Knobs& knobs) {
+  const Knobs usual;
+  std::string out;
+  if (knobs.solver != usual.solver)
+    out += ", " + solver_names()[static_cast<std::size_t>(knobs.solver)];
+  if (knobs.joint_order != usual.joint_order)
+    out += ", joints of order " + std::to_string(knobs.joint_order);
+  if (!knobs.warm_start) out += ", no warm start";
+  if (knobs.continuous) out += ", continuous";
+  return out;
+}
+
 std::string label_of(Precision p) { return kPrecisionNames[static_cast<int>(p)]; }
 
 std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
@@ -62,6 +75,11 @@ std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
     out.push_back(step_series("dt, continuous", info, quick, knobs));
   }
   if (info.family == Family::Free || (quick && info.family == Family::Published)) return out;
+  if (info.swings) {
+    Knobs knobs = base;
+    knobs.joint_order = 4;
+    out.push_back(step_series("dt, joints of order 4", info, quick, knobs));
+  }
   if (info.touches) {
     Knobs knobs = base;
     knobs.solver = kNewton;
@@ -97,18 +115,21 @@ std::vector<Series> users_choice(const KnobChoice& choice) {
     for (const int rotation : or_default(choice.rotation, standard.rotation))
       for (const int solver : or_default(choice.solver, standard.solver))
         for (const int substeps : or_default(choice.substeps, standard.substeps))
-          for (const bool warm : or_default(choice.warm_start, standard.warm_start))
-            for (const bool continuous : or_default(choice.continuous, standard.continuous)) {
-              Series series;
-              series.label =
-                  label_of(p) + ", " + rotation_names()[static_cast<std::size_t>(rotation)] + ", " +
-                  std::to_string(substeps) + " substeps" +
-                  (solver == 0 ? "" : ", " + solver_names()[static_cast<std::size_t>(solver)]) +
-                  (warm ? "" : ", no warm start") + (continuous ? ", continuous" : "");
-              for (const double dt : or_default(choice.dt, standard.dt))
-                series.settings.push_back({dt, substeps, rotation, solver, p, warm, continuous});
-              out.push_back(std::move(series));
-            }
+          for (const int joint_order : or_default(choice.joint_order, standard.joint_order))
+            for (const bool warm : or_default(choice.warm_start, standard.warm_start))
+              for (const bool continuous : or_default(choice.continuous, standard.continuous)) {
+                Knobs knobs{standard.dt, substeps, rotation, solver,
+                            joint_order, p,        warm,     continuous};
+                Series series;
+                series.label = label_of(p) + ", " +
+                               rotation_names()[static_cast<std::size_t>(rotation)] + ", " +
+                               std::to_string(substeps) + " substeps" + exceptions_of(knobs);
+                for (const double dt : or_default(choice.dt, standard.dt)) {
+                  knobs.dt = dt;
+                  series.settings.push_back(knobs);
+                }
+                out.push_back(std::move(series));
+              }
   return out;
 }
 
@@ -138,9 +159,7 @@ std::string step_words(double dt) {
 std::string words_of(const Knobs& knobs) {
   return "dt " + step_words(knobs.dt) + " s, " + std::to_string(knobs.substeps) + " substeps, " +
          label_of(knobs.precision) + ", " +
-         rotation_names()[static_cast<std::size_t>(knobs.rotation)] +
-         (knobs.solver == 0 ? "" : ", " + solver_names()[static_cast<std::size_t>(knobs.solver)]) +
-         (knobs.warm_start ? "" : ", no warm start") + (knobs.continuous ? ", continuous" : "");
+         rotation_names()[static_cast<std::size_t>(knobs.rotation)] + exceptions_of(knobs);
 }
 
 bool parse_step(const std::string& text, double& dt) {

@@ -22,6 +22,7 @@ struct KnobChoice {
   std::vector<int> substeps;
   std::vector<int> rotation;
   std::vector<int> solver;
+  std::vector<int> joint_order;
   std::vector<Precision> precision;
   std::vector<bool> warm_start;
   std::vector<bool> continuous;
@@ -29,7 +30,7 @@ struct KnobChoice {
 
   [[nodiscard]] bool empty() const {
     return dt.empty() && substeps.empty() && rotation.empty() && solver.empty() &&
-           precision.empty() && warm_start.empty() && continuous.empty();
+           joint_order.empty() && precision.empty() && warm_start.empty() && continuous.empty();
   }
 };
 

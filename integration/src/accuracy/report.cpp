@@ -98,7 +98,8 @@ std::string table_of(const CaseResult& result) {
 
 std::string csv_of(const std::vector<CaseResult>& results, const Circumstances& where) {
   std::string out =
-      "case,family,title,series,precision,dt_s,substeps,rotation,solver,warm_start,continuous,"
+      "case,family,title,series,precision,dt_s,substeps,rotation,solver,joint_order,warm_start,"
+      "continuous,"
       "error,unit,"
       "relative_error,us_per_body_second,pareto,reference,reference_spread,machine,compiler,commit,"
       "date\n";
@@ -112,10 +113,11 @@ std::string csv_of(const std::vector<CaseResult>& results, const Circumstances& 
              std::to_string(k.substeps) + ',' +
              rotation_names()[static_cast<std::size_t>(k.rotation)] + ',' +
              solver_names()[static_cast<std::size_t>(k.solver)] + ',' +
-             (k.warm_start ? "1," : "0,") + (k.continuous ? "1," : "0,") +
-             number(cell.error, "%.9g") + ',' + quoted(info.unit) + ',' +
-             number(cell.error / info.scale, "%.9g") + ',' + number(1e6 * cell.cost, "%.6g") + ',' +
-             (cell.pareto ? "1," : "0,") + (info.exact ? "closed form," : "double at 1/3840 s,") +
+             std::to_string(k.joint_order) + ',' + (k.warm_start ? "1," : "0,") +
+             (k.continuous ? "1," : "0,") + number(cell.error, "%.9g") + ',' + quoted(info.unit) +
+             ',' + number(cell.error / info.scale, "%.9g") + ',' + number(1e6 * cell.cost, "%.6g") +
+             ',' + (cell.pareto ? "1," : "0,") +
+             (info.exact ? "closed form," : "double at 1/3840 s,") +
              number(result.reference_spread, "%.3g") + ',' + quoted(where.machine) + ',' +
              quoted(where.compiler) + ',' + quoted(where.commit) + ',' + where.date + '\n';
     }

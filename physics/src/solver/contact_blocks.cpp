@@ -1,7 +1,9 @@
 #include "solver/contact_blocks.h"
 
+#include <algorithm>
 #include <cstring>
 
+#include "math/wide.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -48,11 +50,35 @@ Real* numbers_of(ContactRow<Real>& row) {
   return reinterpret_cast<Real*>(static_cast<Numbers*>(&row));
 }
 
-// Calls task(row, lane) for the rows of a block.
-template <class Rows, class Task>
-void for_lanes(Rows& rows, const BlockHead& head, int lanes, Task&& task) {
-  for (int i = 0; i < lanes; ++i)
-    if ((head.lanes >> i & 1u) != 0) task(rows[head.row[i]], i);
+// Rows and lanes are the two readings of one table. It is turned in tiles of 4 x 4 numbers that fit
+// into registers: for four rows, numbers [begin, end) of each.
+constexpr std::size_t kTile = 4;
+using TileRow = Lanes<Real, kTile>::Reals;
+
+template <class Read, class Write>
+void turn_tiles(std::size_t begin, std::size_t end, Read&& read, Write&& write) {
+  for (std::size_t k = begin; k < end; k += kTile) {
+    TileRow tile[kTile];
+    for (std::size_t i = 0; i < kTile; ++i) std::memcpy(&tile[i], read(k, i), sizeof(TileRow));
+    quads::transpose<Real, kTile>(tile);
+    for (std::size_t i = 0; i < kTile; ++i) std::memcpy(write(k, i), &tile[i], sizeof(TileRow));
+  }
+}
+
+// Calls tiles(first, rows) for every four lanes that are all taken, else one(lane, row).
+template <class Row, class Tiles, class One>
+void for_lanes(std::vector<Row>& rows, const BlockHead& head, std::size_t lanes, Tiles&& tiles,
+               One&& one) {
+  for (std::size_t first = 0; first < lanes; first += kTile) {
+    if ((head.lanes >> first & 15u) == 15u) {
+      Row* const four[kTile] = {&rows[head.row[first]], &rows[head.row[first + 1]],
+                                &rows[head.row[first + 2]], &rows[head.row[first + 3]]};
+      tiles(first, four);
+      continue;
+    }
+    for (std::size_t i = first; i < std::min(first + kTile, lanes); ++i)
+      if ((head.lanes >> i & 1u) != 0) one(i, rows[head.row[i]]);
+  }
 }
 
 class Sorter {
@@ -167,10 +193,20 @@ void fill_blocks(WorldState& world) {
     Real* const to = world.blocks.data() + head.numbers;
     const std::size_t count = reals_of(static_cast<int>(head.points));
     if (head.lanes != (1u << lanes) - 1u) std::memset(to, 0, count * lanes * sizeof(Real));
-    for_lanes(world.rows, head, static_cast<int>(lanes), [&](const ContactRow<Real>& row, int i) {
+    const std::size_t in_tiles = count - count % kTile;
+    const auto rest = [&](std::size_t i, const ContactRow<Real>& row, std::size_t begin) {
       const Real* const from = numbers_of(row);
-      for (std::size_t k = 0; k < count; ++k) to[k * lanes + static_cast<std::size_t>(i)] = from[k];
-    });
+      for (std::size_t k = begin; k < count; ++k) to[k * lanes + i] = from[k];
+    };
+    for_lanes(
+        world.rows, head, lanes,
+        [&](std::size_t first, ContactRow<Real>* const(&four)[kTile]) {
+          turn_tiles(
+              0, in_tiles, [&](std::size_t k, std::size_t i) { return numbers_of(*four[i]) + k; },
+              [&](std::size_t k, std::size_t i) { return to + (k + i) * lanes + first; });
+          for (std::size_t i = 0; i < kTile; ++i) rest(first + i, *four[i], in_tiles);
+        },
+        [&](std::size_t i, ContactRow<Real>& row) { rest(i, row, 0); });
   });
 }
 
@@ -179,14 +215,24 @@ void empty_blocks(WorldState& world) {
   for_blocks(world, [&](const BlockHead& head) {
     const Real* const from = world.blocks.data() + head.numbers;
     const std::size_t count = reals_of(static_cast<int>(head.points));
-    for_lanes(world.rows, head, static_cast<int>(lanes), [&](ContactRow<Real>& row, int i) {
+    const std::size_t in_tiles = count - (count - kHeadReals) % kTile;
+    const auto rest = [&](std::size_t i, ContactRow<Real>& row, std::size_t begin) {
       Real* const to = numbers_of(row);
-      for (std::size_t k = kHeadReals; k < count; ++k)
-        to[k] = from[k * lanes + static_cast<std::size_t>(i)];
+      for (std::size_t k = begin; k < count; ++k) to[k] = from[k * lanes + i];
       Real load = 0;
       for (int p = 0; p < row.count; ++p) load += row.points[p].impulse;
       row.at_rest = load > Real(0);
-    });
+    };
+    for_lanes(
+        world.rows, head, lanes,
+        [&](std::size_t first, ContactRow<Real>* const(&four)[kTile]) {
+          turn_tiles(
+              kHeadReals, in_tiles,
+              [&](std::size_t k, std::size_t i) { return from + (k + i) * lanes + first; },
+              [&](std::size_t k, std::size_t i) { return numbers_of(*four[i]) + k; });
+          for (std::size_t i = 0; i < kTile; ++i) rest(first + i, *four[i], in_tiles);
+        },
+        [&](std::size_t i, ContactRow<Real>& row) { rest(i, row, kHeadReals); });
   });
 }
 

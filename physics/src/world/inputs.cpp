@@ -126,7 +126,8 @@ void append(std::vector<double>& out, const WorldSettings& s) {
   append_all(out, {static_cast<double>(s.substeps), as_number(s.contact_frequency),
                    as_number(s.contact_damping_ratio), static_cast<double>(s.rotation),
                    s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0, as_number(s.time_to_sleep),
-                   s.profiling ? 1.0 : 0.0, static_cast<double>(s.contact_solver)});
+                   s.profiling ? 1.0 : 0.0, static_cast<double>(s.contact_solver),
+                   static_cast<double>(s.joint_order)});
 }
 
 double NumberReader::number() {
@@ -270,6 +271,7 @@ WorldSettings NumberReader::settings() {
   s.time_to_sleep = real();
   s.profiling = flag();
   s.contact_solver = choice<ContactSolver>(*this, 3, ok_);
+  s.joint_order = static_cast<int>(word());
   return s;
 }
 

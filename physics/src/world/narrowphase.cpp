@@ -210,8 +210,9 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
     return;
   }
   const Real margin = tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
-  if (recycle(world, pair, static_cast<std::uint32_t>(index), margin, out)) {
+  if (recycle(world, pair, margin)) {
     found.count = pair.contact_count;
+    found.kept = true;
     return;
   }
   if (has_parts(a.shape.type) || has_parts(b.shape.type)) {
@@ -284,11 +285,25 @@ bool wake_what_is_touched(WorldState& world) {
   return !world.bodies_to_wake.empty();
 }
 
+// Whether every pair has as many contacts as in the last step, and they lie in the order of pairs.
+bool contacts_stay_in_place(const WorldState& world) {
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
+    const Pair& pair = world.pairs[i];
+    if (world.findings[i].count != pair.contact_count) return false;
+    if (pair.contact_count > 0 && pair.first_contact != next) return false;
+    next += pair.contact_count;
+  }
+  return next == world.contacts.size();
+}
+
 // Replaces the last step's contacts by those found now, and drops pairs whose bounds have parted.
 void take_findings(WorldState& world) {
+  const bool in_place = contacts_stay_in_place(world);
+  std::vector<Contact>& to = in_place ? world.contacts : world.new_contacts;
   world.new_contacts.clear();
   std::size_t index = 0;
-  std::uint32_t kept = 0;
+  std::uint32_t remaining = 0;
   world.pairs.remove_if([&](Pair& pair) {
     const std::size_t chunk = index / tolerance::kPairGrain;
     const PairFindings& found = world.findings[index++];
@@ -296,17 +311,25 @@ void take_findings(WorldState& world) {
       note_pair_end(world, pair);
       return true;
     }
-    pair.first_contact = found.first;
+    const std::span<const Contact> contacts =
+        found.kept ? contacts_of(pair, world.contacts)
+                   : std::span<const Contact>(world.contacts_by_chunk[chunk])
+                         .subspan(found.first, found.count);
+    if (!in_place) {
+      pair.first_contact = static_cast<std::uint32_t>(to.size());
+      to.insert(to.end(), contacts.begin(), contacts.end());
+    } else if (!found.kept) {
+      std::copy(contacts.begin(), contacts.end(), to.begin() + pair.first_contact);
+    }
     pair.contact_count = found.count;
     pair.touching = found.count > 0 || found.overlaps;
     pair.passage = found.passage;
     pair.apart = found.apart;
-    move_contacts(pair, world.contacts_by_chunk[chunk], world.new_contacts);
-    for (Contact& contact : contacts_of(pair, world.new_contacts)) contact.pair = kept;
-    ++kept;
+    for (Contact& contact : contacts_of(pair, to)) contact.pair = remaining;
+    ++remaining;
     return false;
   });
-  world.contacts.swap(world.new_contacts);
+  if (!in_place) world.contacts.swap(world.new_contacts);
   world.contacts_fit = world.pairs.changes();
 }
 

@@ -60,30 +60,33 @@ void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Cont
   }
 }
 
-bool recycle(const WorldState& world, const Pair& pair, std::uint32_t index, Real margin,
-             std::vector<Contact>& out) {
+bool recycle(WorldState& world, const Pair& pair, Real margin) {
   if (!may_recycle(world, pair, margin)) return false;
-  const std::size_t first_out = out.size();
-  const std::span<const Contact> before = contacts_of(pair, world.contacts);
-  const KeptManifold& first = before.front().kept;
+  const std::span<Contact> contacts = contacts_of(pair, world.contacts);
+  const KeptManifold& first = contacts.front().kept;
   const BodyPose &a = pose_of(world, pair.body_a), &b = pose_of(world, pair.body_b);
   const Motion of_a = motion_since(first.a, a), of_b = motion_since(first.b, b);
   const Vec from_a_to_b = cast<Real>(first.b.x - first.a.x);
-  for (const Contact& old : before) {
-    Contact& contact = out.emplace_back(old);
-    contact.pair = index;
-    const KeptManifold& kept = contact.kept;
+  struct Carried {
+    Vec by_a, by_b;   // [m]
+    Real separation;  // [m]
+  };
+  const auto carried = [&](const Contact& contact, int i) {
+    const Vec p = contact.kept.position[i];
+    const Vec d_a = of_a.of(pair.relative_to_b ? p + from_a_to_b : p);
+    const Vec d_b = of_b.of(pair.relative_to_b ? p : p - from_a_to_b);
+    return Carried{d_a, d_b, contact.kept.separation[i] + dot(contact.manifold.normal, d_b - d_a)};
+  };
+  for (const Contact& contact : contacts)
+    for (int i = 0; i < contact.manifold.count; ++i)
+      if (carried(contact, i).separation > margin) return false;
+  for (Contact& contact : contacts) {
     for (int i = 0; i < contact.manifold.count; ++i) {
-      const Vec p = kept.position[i];
-      const Vec d_a = of_a.of(pair.relative_to_b ? p + from_a_to_b : p);
-      const Vec d_b = of_b.of(pair.relative_to_b ? p : p - from_a_to_b);
+      const Carried c = carried(contact, i);
       ManifoldPoint& point = contact.manifold.points[i];
-      point.separation = kept.separation[i] + dot(contact.manifold.normal, d_b - d_a);
-      if (point.separation > margin) {
-        out.resize(first_out);
-        return false;
-      }
-      point.position = p + Real(0.5) * (d_a + d_b) - (pair.relative_to_b ? of_b.shift : of_a.shift);
+      point.separation = c.separation;
+      point.position = contact.kept.position[i] + Real(0.5) * (c.by_a + c.by_b) -
+                       (pair.relative_to_b ? of_b.shift : of_a.shift);
       contact.step_normal_impulse[i] = Real(0);
       contact.step_friction_impulse[i] = {0, 0, 0};
     }

@@ -15,9 +15,8 @@ struct WorldState;
 
 // Notes from where the contacts of a pair, found just now with `margin` [m], may be kept.
 void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Contact> contacts);
-// Appends the last step's contacts of the pair, told as of now, where they are what a search with
-// `margin` [m] would find, and returns true; else does nothing. `index`: of the pair.
-bool recycle(const WorldState& world, const Pair& pair, std::uint32_t index, Real margin,
-             std::vector<Contact>& out);
+// Tells the last step's contacts of the pair as of now, where they lie, if they are what a search
+// with `margin` [m] would find, and returns true; else does nothing.
+bool recycle(WorldState& world, const Pair& pair, Real margin);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -137,6 +137,8 @@ Status check(const WorldSettings& s) {
   if (s.contact_solver != ContactSolver::SoftStep && s.contact_solver != ContactSolver::Newton &&
       s.contact_solver != ContactSolver::Auto)
     return {StatusCode::OutOfRange, "contact solver is none of SoftStep, Newton, Auto"};
+  if (s.joint_order != 2 && s.joint_order != 4)
+    return {StatusCode::OutOfRange, "joint order must be 2 or 4"};
   return {};
 }
 

@@ -84,7 +84,8 @@ struct SceneCounts {
 
 // What the narrowphase found in one pair, before anything is changed.
 struct PairFindings {
-  std::uint32_t first = 0, count = 0;  // contacts, within its chunk's list
+  std::uint32_t first = 0, count = 0;  // contacts, within its chunk's list ...
+  bool kept = false;                   // ... or those of the last step, told anew where they lie
   bool gone = false;                   // the bounds are apart, or all sleeps
   bool overlaps = false;               // sensors: whether they see the other
   Passage passage = Passage::Apart;

@@ -55,8 +55,11 @@ Pair add_pair(PhysicsWorld& world) {
 }
 
 TEST(JointConservation, EveryKindKeepsBothMomentaOfTwoFreeBodies) {
-  for (const Case& c : all_kinds()) {
-    PhysicsWorld world(no_gravity());
+  for (int n = 0; n < 2 * static_cast<int>(all_kinds().size()); ++n) {
+    const Case c = all_kinds()[static_cast<std::size_t>(n / 2)];
+    WorldSettings settings = no_gravity();
+    settings.joint_order = n % 2 == 0 ? 2 : 4;
+    PhysicsWorld world(settings);
     const Pair pair = add_pair(world);
     // Off-centre frames that do not even coincide: the joint has errors to work off.
     Joint joint = joint_at(world, pair.a, pair.b, c.kind, {0.5, 0.3, -0.2}, {1, 1, 0});

@@ -23,7 +23,8 @@ using namespace accuracy;
 
 struct AccuracyOptions {
   std::vector<std::string> cases;
-  std::vector<std::string> dt, substeps, rotation, solver, precision, warm_start, continuous;
+  std::vector<std::string> dt, substeps, rotation, solver, joint_order, precision, warm_start,
+      continuous;
   std::string output, error, budget, table;
   bool list = false, quick = false, no_charts = false, quiet = false;
 };
@@ -101,6 +102,9 @@ std::string read_knobs(const AccuracyOptions& options, KnobChoice& knobs) {
   std::string wrong = choose("--rotation", options.rotation, rotation_names(), knobs.rotation);
   if (wrong.empty()) wrong = choose("--solver", options.solver, solver_names(), knobs.solver);
   std::vector<int> chosen;
+  if (wrong.empty()) wrong = choose("--joint-order", options.joint_order, {"2", "4"}, chosen);
+  for (const int place : chosen) knobs.joint_order.push_back(place == 0 ? 2 : 4);
+  chosen.clear();
   if (wrong.empty())
     wrong = choose("--precision", options.precision,
                    {std::begin(kPrecisionNames), std::end(kPrecisionNames)}, chosen);
@@ -303,6 +307,7 @@ void add_options(CLI::App& app, AccuracyOptions& options) {
   list("--substeps", options.substeps, "Likewise, 1 to 64");
   list("--rotation", options.rotation, "Likewise, rotation methods, such as Exact,RK4");
   list("--solver", options.solver, "Likewise, contact solvers: SoftStep, Newton, Auto");
+  list("--joint-order", options.joint_order, "Likewise, of jointed bodies in flight: 2, 4");
   list("--precision", options.precision, "Likewise: f32, f32d, f64");
   list("--warm-start", options.warm_start, "Likewise: on, off");
   list("--ccd", options.continuous, "Likewise, continuous collision of what flies fast: on, off");

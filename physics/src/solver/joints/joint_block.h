@@ -70,6 +70,7 @@ struct FreeRow {
   Real max_effort = 0;  // of motor or servo
   Real friction = 0;    // [N] or [N m]
   bool limited = false, pulls_only = false;
+  bool limit_aside = false;  // it has limits, out of reach, that are left out for the moment
   Real lower = 0, upper = 0;
   Real limit_frequency = 0, limit_damping_ratio = 0;
   Real limit_stiffness = 0, limit_damping = 0;

@@ -1,6 +1,6 @@
 // What has come apart is closed in positions alone: velocities, and with them energy, have no part
-// in it [Cline 2003]. Only where an error is larger than kClosed: the solving pass has aimed
-// at none.
+// in it [Cline 2003]. Only where an error is larger than closed_enough(): the solving pass has
+// aimed at none.
 //
 // The step dx = M^-1 J^T l, (J M^-1 J^T + C) l = -error, is right to first order in how far it
 // turns bodies. It goes no farther than where what it leaves out, size turn^2 / 2, reaches the part
@@ -86,8 +86,8 @@ Real share_of_step(const WorldState& world, const JointPiece& piece, Real error)
     turn = std::max(turn, length_squared(steps[i].turn));
   });
   // No body goes farther than what all joints of the group may close together.
-  const Real farthest = piece.h * joint_tolerance::kPushSizesPerSecond * sizes;
-  const Real closed = std::min(error, piece.h * joint_tolerance::kPushTurn);
+  const Real farthest = std::abs(piece.h) * joint_tolerance::kPushSizesPerSecond * sizes;
+  const Real closed = std::min(error, std::abs(piece.h) * joint_tolerance::kPushTurn);
   const Real allowed = Real(2) * joint_tolerance::kLeftOut * closed;  // [rad^2]
   Real share = 1;
   if (turn > allowed) share = std::sqrt(allowed / turn);
@@ -183,7 +183,7 @@ Real ask_for_closing(JointScratch& scratch, const JointPiece& piece, double damp
       const Real error = open ? error_of(block, k) : Real(0);
       if (k >= block.held && error == Real(0)) continue;
       largest = std::max(largest, std::abs(error) / size_of(block, k));
-      const Real most = most_of(block, k, piece.h);
+      const Real most = most_of(block, k, std::abs(piece.h));
       rows[k].acts = true;
       if (damping > 0) rows[k].give = damping * mobility(block, k);
       rows[k].value =
@@ -215,7 +215,7 @@ Real find_step(WorldState& world, const JointPiece& piece, double damping, Real&
   do {
     const Real largest = ask_for_closing(scratch, piece, damping, again);
     if (!again) error = largest;
-    if (!(error > joint_tolerance::kClosed)) return Real(0);
+    if (!(error > closed_enough(world))) return Real(0);
     factor_piece(scratch.system, scratch.blocks, piece);
     solve_factored(scratch.system, scratch.blocks, piece);
     again = let_go(scratch, piece);
@@ -225,11 +225,15 @@ Real find_step(WorldState& world, const JointPiece& piece, double damping, Real&
 
 }  // namespace
 
+Real closed_enough(const WorldState& world) {
+  return world.settings.joint_order == 4 ? joint_tolerance::kClosedTight : joint_tolerance::kClosed;
+}
+
 void close_joints_of(WorldState& world, const JointPiece& piece) {
   JointScratch& scratch = *world.joints.scratch;
   Real error = 0;
   Real share = find_step(world, piece, 0, error);
-  if (!(error > joint_tolerance::kClosed)) return;
+  if (!(error > closed_enough(world))) return;
   if (share < Real(1)) share = find_step(world, piece, joint_tolerance::kClosingDamping, error);
   const std::uint32_t origin = scratch.members[scratch.order[piece.begin]].body[0];
   Orbit before;

@@ -80,7 +80,7 @@ void make_inverse_masses(JointBlock& block) {
 
 // The part before the drift of a spring that is as stiff as this [rad^2/s^2].
 Real share_of(const JointBlock& block, Real square) {
-  const Real turn = block.h * std::sqrt(square);
+  const Real turn = std::abs(block.h) * std::sqrt(square);
   return std::max(Real(0.5), Real(1) - Real(0.5) * joint_tolerance::kVibrationPerCycle / turn);
 }
 

@@ -34,7 +34,12 @@ struct VectorBound {
 class PieceSolver {
  public:
   PieceSolver(WorldState& world, const JointPiece& piece, JointPass pass)
-      : world_(world), scratch_(*world.joints.scratch), piece_(piece), pass_(pass), h_(piece.h) {}
+      : world_(world),
+        scratch_(*world.joints.scratch),
+        piece_(piece),
+        pass_(pass),
+        h_(piece.h),
+        closed_(closed_enough(world)) {}
 
   void run() {
     if (pass_ == JointPass::Relax) {
@@ -62,7 +67,7 @@ class PieceSolver {
       const bool changed = choose_laws(!clamped) || step == 0;
       if (ahead && !linear_) first = std::min(first, std::max(error_, joint_tolerance::kFarOff));
       if (arrived > 0 && !changed && !clamped) {
-        if (!ahead || error_ <= joint_tolerance::kClosed) return true;
+        if (!ahead || error_ <= closed_) return true;
         // Newton's method has come too far from where it began: turns by more than a radian in a
         // substep. The step before is taken back; what is left loses energy, but never gains it.
         if (arrived > (stiff_ ? 0 : 1) && error_ > before) {
@@ -146,7 +151,7 @@ class PieceSolver {
   // By how much a spring that acts like a rigid hold will miss its place, in sizes or radians [-].
   [[nodiscard]] Real error_of(const JointBlock& block, int f, const Law& law) const {
     const Real S = block.free_inverse_mass[f];
-    return std::abs(law.lack) * (S / (S + law.give)) * h_ / size_of(block, block.held + f);
+    return std::abs(law.lack * h_) * (S / (S + law.give)) / size_of(block, block.held + f);
   }
   // The law of part `part` of a free row.
   [[nodiscard]] Law law_of(const JointBlock& block, const Now& now, int f, RowPart part) const {
@@ -189,7 +194,7 @@ class PieceSolver {
           lack = (now.end[k] - row.value) / h_;
         }
         rows[k].value = -static_cast<double>(lack);
-        error_ = std::max(error_, std::abs(lack) * h_ / size_of(block, k));
+        error_ = std::max(error_, std::abs(lack * h_) / size_of(block, k));
       }
       VectorBound bounds[3];
       bool acts[3];
@@ -402,6 +407,7 @@ class PieceSolver {
   const JointPiece& piece_;
   JointPass pass_;
   Real h_;
+  Real closed_;         // [-] as error_, where Newton's steps end
   bool ahead_ = false;  // at the end of the substep, else at the present rates
   bool linear_ = true;  // the end of the substep by the present rates
   bool has_laws_ = false;

@@ -28,6 +28,9 @@ struct WorldState;
 
 enum class JointPass : std::uint8_t { Solve, Relax };
 
+// How far off held coordinates may be, in body sizes or radians [-].
+Real closed_enough(const WorldState& world);
+
 void prepare_joint(const WorldState& world, JointBlock& block);
 // How fast the forces drive limits that could bounce.
 void note_approaches(JointBlock& block, const WorldState& world);

@@ -1,6 +1,7 @@
 // Numbers of the joint solver that a user should not have to choose.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -53,6 +54,10 @@ inline constexpr Real kLeftOut = Real(0.05);
 // radians; when a step leaves more than kSlowStep of the error it is the last.
 inline constexpr Real kClosed = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-9);
 inline constexpr Real kSlowStep = Real(0.5);
+// ... to this where WorldSettings::joint_order is 4: what is left is of one sign, and its weight
+// adds up.
+inline constexpr Real kClosedTight =
+    std::min(kClosed, Real(100) * std::numeric_limits<Real>::epsilon());
 // ... and when all of them leave this many times what there was at best, or what is far off [-],
 // they are taken back.
 inline constexpr Real kAstray = Real(4);
