@@ -19,7 +19,7 @@ struct StepDiagnostics {
   // substep.
   bool ledger = false;
   // Vectors that the contact solver works with [bit]: 128, 256 or 512, as far as the processor has
-  // them; 1: one row at a time; 0: the longest up to 256. For comparing their speed.
+  // them; 1: one row at a time; 0: the longest that pays. For comparing their speed.
   int kernel_bits = 0;
 };
 

@@ -37,7 +37,7 @@ struct ContactBlocks {
 };
 
 // The kernel for vectors of that many bits, or the longest below that this processor has; one row
-// at a time for 0 < bits < 128. 0: as long as pays, at most 256.
+// at a time for 0 < bits < 128. 0: as long as pays.
 BlockKernel choose_block_kernel(int bits);
 
 // Sorts the rows of this step into blocks and loose ones, and fills the blocks.

@@ -209,8 +209,9 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
     found.overlaps = collide(a.shape, xa, b.shape, xb, Real(0), manifold);
     return;
   }
-  const Real margin = tolerance::kMarginSlops * pair.slop + reach_of(world, pair);
-  if (recycle(world, pair, margin)) {
+  const Real reach = reach_of(world, pair);
+  const Real margin = tolerance::kMarginSlops * pair.slop + reach;
+  if (recycle(world, pair, margin, reach)) {
     found.count = pair.contact_count;
     found.kept = true;
     return;

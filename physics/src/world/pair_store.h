@@ -56,6 +56,7 @@ struct KeptPose {
 struct KeptManifold {
   Real margin = -1;  // [m] of the search that found it; negative: it may not be kept
   KeptPose a, b;     // of the bodies then
+  Vec normal{0, 0, 0};
   Vec position[Manifold::kMaxPoints]{};
   Real separation[Manifold::kMaxPoints]{};
 };

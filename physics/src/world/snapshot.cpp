@@ -111,6 +111,7 @@ void visit_pair(Table& t, Pair& p, std::uint32_t& island) {
 template <class Table>
 void visit_kept(Table& t, KeptManifold& k) {
   t("kept_margin", k.margin);
+  t("kept_normal", k.normal.x, k.normal.y, k.normal.z);
   t("kept_a", k.a.x.x, k.a.x.y, k.a.x.z, k.a.q.x, k.a.q.y, k.a.q.z, k.a.q.w);
   t("kept_b", k.b.x.x, k.b.x.y, k.b.x.z, k.b.q.x, k.b.q.y, k.b.q.z, k.b.q.w);
   static constexpr const char* kNames[4] = {"kept0", "kept1", "kept2", "kept3"};
