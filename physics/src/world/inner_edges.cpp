@@ -196,10 +196,17 @@ void find_hidden(const WorldState& world, std::span<const Touch> group,
   StepList<std::uint8_t> doubtful(count, 0, hidden.get_allocator());
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count && doubtful[i] == 0; ++j) doubtful[i] = hides(j, i) ? 1 : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (doubtful[i] == 0) continue;
-    for (std::size_t j = 0; j < count; ++j)
-      if (doubtful[j] == 0 && hides(j, i)) hidden[group[i].contact] = 1;
+  // One that is hidden may hide the next, so long as the last of the chain stays: neither is in
+  // doubt then.
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count && doubtful[i] != 0; ++j) {
+        if (doubtful[j] != 0 || !hides(j, i)) continue;
+        hidden[group[i].contact] = 1;
+        doubtful[i] = 0;
+        more = true;
+      }
   }
 }
 

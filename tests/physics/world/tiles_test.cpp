@@ -116,7 +116,7 @@ struct Plank {
   double load = 0;  // [-] densities of a block on its end in its own
 };
 const Plank kPlanks[] = {{vec(0.8, 0.05, 0.6)},
-                         {vec(0.8, 0.05, 0.6), 10},
+                         {vec(0.8, 0.05, 0.6), 40},
                          {vec(1.25, 0.05, 0.3)},
                          {vec(1.65, 0.025, 0.25)},
                          {vec(0.2, 0.2, 0.2)}};
