@@ -6,6 +6,7 @@
 #include "collision/core_distance.h"
 #include "collision/core_support.h"
 #include "collision/surface/composite_shape.h"
+#include "world/tolerances.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -38,6 +39,10 @@ bool may_have_neighbours(const WorldState& world, const ColliderInfo& c) {
          world.bodies.info[c.body].colliders.size() > 1;
 }
 
+bool is_dynamic(const WorldState& world, std::uint32_t body) {
+  return world.bodies.info[body].type == MotionType::Dynamic;
+}
+
 Piece piece_of(const WorldState& world, const Touch& touch) {
   const Contact& contact = world.contacts[touch.contact];
   const Pair& pair = world.pairs[contact.pair];
@@ -57,14 +62,26 @@ Piece piece_of(const WorldState& world, const Touch& touch) {
   return piece;
 }
 
-// Whether all points of a contact lie on a neighbour that stands out beyond their plane.
-bool is_hidden(const WorldState& world, const Touch& touch, const Piece& neighbour) {
+bool same(const Piece& a, const Piece& b) {
+  return a.shape == b.shape && length_squared(a.x - b.x) == PosReal(0);
+}
+
+NumVec outward_of(const WorldState& world, const Touch& touch) {
+  const Vec n = world.contacts[touch.contact].manifold.normal;
+  return to_num(touch.of_b ? -n : n);
+}
+
+// For the points of a contact: visit(whether it lies on the neighbour, whether the neighbour stands
+// out beyond it along `outward`), until that returns false.
+template <class Visit>
+void visit_points(const WorldState& world, const Touch& touch, NumVec outward,
+                  const Piece& neighbour, Visit&& visit) {
   const Contact& contact = world.contacts[touch.contact];
   const Pair& pair = world.pairs[contact.pair];
   const Num flush = static_cast<Num>(kFlushSlops * pair.slop);
   const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
   const PosVec origin = world.bodies.pose[world.bodies.info[seen_from].dense].x;
-  const NumVec outward = to_num(touch.of_b ? -contact.manifold.normal : contact.manifold.normal);
+  const NumVec normal = outward_of(world, touch);
   const NumRotation back = conjugate(neighbour.q);
   const NumVec n = rotate(back, outward);
   const NumVec farthest = core_support(*neighbour.shape, n);
@@ -74,12 +91,83 @@ bool is_hidden(const WorldState& world, const Touch& touch, const Piece& neighbo
   for (int i = 0; i < contact.manifold.count; ++i) {
     const ManifoldPoint& at = contact.manifold.points[i];
     const Num gap = static_cast<Num>(at.separation - contact.advanced_gap);
-    const NumVec on_piece = to_num(at.position) - advance - (Num(0.5) * gap) * outward;
+    const NumVec on_piece = to_num(at.position) - advance - (Num(0.5) * gap) * normal;
     const NumVec p = rotate(back, cast<Num>(origin - neighbour.x) + on_piece);
-    if (distance_to_core(*neighbour.shape, p).distance - radius > flush) return false;
-    if (reach - dot(n, p) <= flush) return false;
+    const bool lies_on = distance_to_core(*neighbour.shape, p).distance - radius <= flush;
+    if (!visit(lies_on, reach - dot(n, p) > flush)) return;
   }
-  return true;
+}
+
+// Whether all points of a contact lie on a neighbour that stands out beyond their plane.
+bool is_hidden(const WorldState& world, const Touch& touch, const Piece& neighbour) {
+  bool hidden = true;
+  visit_points(world, touch, outward_of(world, touch), neighbour, [&](bool lies_on, bool beyond) {
+    hidden = lies_on && beyond;
+    return hidden;
+  });
+  return hidden;
+}
+
+// Whether a point of a contact lies on a neighbour that does not stand out along `outward`.
+bool is_continued(const WorldState& world, const Touch& touch, NumVec outward,
+                  const Piece& neighbour) {
+  bool continued = false;
+  visit_points(world, touch, outward, neighbour, [&](bool lies_on, bool beyond) {
+    continued = lies_on && !beyond;
+    return !continued;
+  });
+  return continued;
+}
+
+// The unit normal of the piece's face that looks most along a direction; zero if it has no faces.
+NumVec face_along(const Piece& piece, NumVec outward) {
+  const NumVec d = rotate(conjugate(piece.q), outward);
+  NumVec best{0, 0, 0};
+  if (piece.shape->type == ShapeType::Box) {
+    const NumVec m = absolute(d);
+    const int axis = m.x >= m.y ? (m.x >= m.z ? 0 : 2) : (m.y >= m.z ? 1 : 2);
+    set_component(best, axis, component(d, axis) < Num(0) ? Num(-1) : Num(1));
+  } else if (piece.shape->type == ShapeType::Hull) {
+    for (const Vec3& normal : piece.shape->hull->face_normals())
+      if (dot(to_num(normal), d) > dot(best, d)) best = to_num(normal);
+    best = normalized_or(best, {0, 0, 0});
+  }
+  return rotate(piece.q, best);
+}
+
+void set_normal(Contact& contact, Vec normal) {
+  const Real advanced_gap = -dot(normal, contact.advance);
+  for (int i = 0; i < contact.manifold.count; ++i)
+    contact.manifold.points[i].separation += advanced_gap - contact.advanced_gap;
+  contact.advanced_gap = advanced_gap;
+  contact.manifold.normal = normal;
+}
+
+// Gives the contacts of a side that lies along a face with flush neighbours the face's normal. A
+// side lies along a face if it leaves it by no more than the margin in which points are made, over
+// the smaller of the two: what rests there rocks by less.
+void follow_faces(WorldState& world, std::span<const Touch> group, std::span<const Piece> pieces) {
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Touch& touch = group[i];
+    // What yields follows what does not.
+    if (touch.rigid != kNone && !is_dynamic(world, touch.mover)) continue;
+    if (pieces[i].shape == nullptr) continue;
+    Contact& contact = world.contacts[touch.contact];
+    const NumVec outward = outward_of(world, touch);
+    const NumVec face = face_along(pieces[i], outward);
+    const Vec normal = cast<Real>(touch.of_b ? -face : face);
+    if (length_squared(normal - contact.manifold.normal) == Real(0)) continue;
+    const Num size = Num(2) * static_cast<Num>(std::min(bounding_radius(*pieces[i].shape),
+                                                        world.bodies.info[touch.mover].radius));
+    const Num margin = static_cast<Num>(tolerance::kMarginSlops * world.pairs[contact.pair].slop);
+    const bool along = dot(face, outward) > Num(0) && length(cross(face, outward)) * size <= margin;
+    if (!along) continue;
+    const auto continues = [&](const Piece& neighbour) {
+      return neighbour.shape != nullptr && !same(pieces[i], neighbour) &&
+             is_continued(world, touch, face, neighbour);
+    };
+    if (std::any_of(pieces.begin(), pieces.end(), continues)) set_normal(contact, normal);
+  }
 }
 
 void list_touches(WorldState& world, StepList<Touch>& touches) {
@@ -99,13 +187,8 @@ void list_touches(WorldState& world, StepList<Touch>& touches) {
 
 // The touches of one body with one rigid whole: which of them a neighbour hides.
 void find_hidden(const WorldState& world, std::span<const Touch> group,
-                 StepList<std::uint8_t>& hidden) {
+                 std::span<const Piece> pieces, StepList<std::uint8_t>& hidden) {
   const std::size_t count = group.size();
-  StepList<Piece> pieces(hidden.get_allocator());
-  for (const Touch& touch : group) pieces.push_back(piece_of(world, touch));
-  const auto same = [](const Piece& a, const Piece& b) {
-    return a.shape == b.shape && length_squared(a.x - b.x) == PosReal(0);
-  };
   const auto hides = [&](std::size_t j, std::size_t i) {  // j's piece the contact i
     return pieces[i].shape != nullptr && pieces[j].shape != nullptr &&
            !same(pieces[i], pieces[j]) && is_hidden(world, group[i], pieces[j]);
@@ -113,10 +196,17 @@ void find_hidden(const WorldState& world, std::span<const Touch> group,
   StepList<std::uint8_t> doubtful(count, 0, hidden.get_allocator());
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count && doubtful[i] == 0; ++j) doubtful[i] = hides(j, i) ? 1 : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (doubtful[i] == 0) continue;
-    for (std::size_t j = 0; j < count; ++j)
-      if (doubtful[j] == 0 && hides(j, i)) hidden[group[i].contact] = 1;
+  // One that is hidden may hide the next, so long as the last of the chain stays: neither is in
+  // doubt then.
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count && doubtful[i] != 0; ++j) {
+        if (doubtful[j] != 0 || !hides(j, i)) continue;
+        hidden[group[i].contact] = 1;
+        doubtful[i] = 0;
+        more = true;
+      }
   }
 }
 
@@ -145,10 +235,16 @@ void drop_hidden_contacts(WorldState& world) {
            std::tuple(b.mover, b.rigid, b.contact, b.of_b);
   });
   StepList<std::uint8_t> hidden(world.contacts.size(), 0, &world.memory);
+  StepList<Piece> pieces(&world.memory);
   for (std::size_t begin = 0, end; begin < touches.size(); begin = end) {
     for (end = begin + 1; end < touches.size() && whole(touches[end]) == whole(touches[begin]);)
       ++end;
-    if (end - begin > 1) find_hidden(world, std::span(touches).subspan(begin, end - begin), hidden);
+    if (end - begin == 1) continue;
+    const std::span<const Touch> group = std::span(touches).subspan(begin, end - begin);
+    pieces.clear();
+    for (const Touch& touch : group) pieces.push_back(piece_of(world, touch));
+    follow_faces(world, group, pieces);
+    find_hidden(world, group, pieces, hidden);
   }
   if (std::find(hidden.begin(), hidden.end(), 1) != hidden.end()) take_out(world, hidden);
 }

@@ -16,9 +16,16 @@ struct WorldState;
 //
 // or the neighbour would be in the way of whoever touches p from there. Contacts of which no point
 // holds that are taken out, if the neighbour has a contact with the same body that stays: one that
-// carries it. Looks at bodies that touch several pieces of what is rigid: static bodies, or one
-// body's colliders and children; all others cost one look at each contact. Surfaces (meshes,
-// heightfields) see to their own edges.
+// carries it. It may be hidden itself, by another that stays.
+//
+// What lies on many pieces at once rocks a little as it passes from one to the next, and where it
+// is the larger one the normals of its contacts are its own side's. They miss the cone by as much
+// as it rocks, and a force that leans with it would slow it down. Along a face that goes on in a
+// flush neighbour they are turned to the one normal in both cones, the face's.
+//
+// Looks at bodies that touch several pieces of what is rigid: static bodies, or one body's
+// colliders and children; all others cost one look at each contact. Surfaces (meshes, heightfields)
+// see to their own edges.
 void drop_hidden_contacts(WorldState& world);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -10,6 +10,12 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
+// A point has all of its friction used up if it is within this share of it [-].
+constexpr Real kUsedUp = Real(0.99);
+// What would take more than a hundred times the time to sleep to become faster than what rests
+// counts as at rest [-].
+constexpr Real kGathering = Real(0.01);
+
 bool is_dynamic(const WorldState& world, std::uint32_t body) {
   return world.bodies.info[body].type == MotionType::Dynamic;
 }
@@ -73,6 +79,84 @@ void update_rest_time(WorldState& world, std::uint32_t dense) {
   const bool rests =
       info.can_sleep && !world.substep[dense].driven && (supported ? speed < limit : still);
   info.rest_time = rests ? info.rest_time + world.dt : Real(0);
+}
+
+// An island that has been slow for long enough to sleep, and what acts on it from outside in this
+// step.
+struct Rester {
+  std::uint32_t root;
+  Vec momentum{0, 0, 0};   // [N s]
+  Vec gained{0, 0, 0};     // [N s] in the step
+  Real rest_momentum = 0;  // [N s] of all its bodies at rest_speed()
+  bool held = false;       // by a point with friction to spare, or by more than friction
+};
+
+bool slips(const Pair& pair, const Contact& contact, int i) {
+  const Real limit = pair.friction * contact.step_normal_impulse[i];
+  return length_squared(contact.step_friction_impulse[i]) >= kUsedUp * kUsedUp * limit * limit;
+}
+
+// What the ground gives to the body that lies on it.
+void add_support(Rester& rester, const Pair& pair, const Contact& contact, bool of_b) {
+  for (int i = 0; i < contact.manifold.count; ++i) {
+    if (!(contact.step_normal_impulse[i] > Real(0))) continue;
+    if (!slips(pair, contact, i)) rester.held = true;
+    const Vec on_b =
+        contact.step_normal_impulse[i] * contact.manifold.normal + contact.step_friction_impulse[i];
+    rester.gained += of_b ? on_b : -on_b;
+  }
+}
+
+void add_member(const WorldState& world, Rester& rester, std::uint32_t body) {
+  const BodyInfo& info = world.bodies.info[body];
+  const BodyMass& mass = world.bodies.mass[info.dense];
+  const SubstepBody& s = world.substep[info.dense];
+  rester.momentum += mass.mass * world.bodies.velocity[info.dense].v;
+  rester.gained += (world.dt * mass.mass) * s.acceleration;
+  rester.rest_momentum += mass.mass * rest_speed(world, info, mass.gravity_scale);
+  if (s.jointed || s.affected) rester.held = true;
+}
+
+// Whether it gathers speed, at the rate of this step, and has what that brings in the time for
+// which it was slow, give or take: a single push from its neighbours is none of it.
+bool gathers_speed(const WorldState& world, const Rester& rester) {
+  const Real size = length(rester.momentum);
+  if (rester.held || !(size > Real(0))) return false;
+  const Real steps = world.settings.time_to_sleep / world.dt;
+  const Real brought = steps * dot(rester.gained, rester.momentum) / size;
+  return brought > kGathering * rester.rest_momentum && size > Real(0.5) * brought;
+}
+
+// Of the islands that have been slow for long enough, those that slide off slowly: friction holds
+// them at no point, and what is left over drives them on.
+StepList<std::uint32_t> find_sliding(
+    WorldState& world, std::span<const std::pair<std::uint32_t, std::uint32_t>> resting) {
+  StepList<Rester> resters(&world.memory);
+  for (const auto& [root, body] : resting) {
+    if (resters.empty() || resters.back().root != root) resters.push_back({root});
+    add_member(world, resters.back(), body);
+  }
+  const auto rester_of = [&](std::uint32_t body) -> Rester* {
+    if (!is_dynamic(world, body) || !world.bodies.is_awake(body)) return nullptr;
+    const std::uint32_t root = find_root(world.parents, body);
+    const auto at = std::lower_bound(resters.begin(), resters.end(), root,
+                                     [](const Rester& r, std::uint32_t k) { return r.root < k; });
+    return at != resters.end() && at->root == root ? &*at : nullptr;
+  };
+  for (const Pair& pair : world.pairs) {
+    if (pair.contact_count == 0) continue;
+    Rester* const a = rester_of(pair.body_a);
+    Rester* const b = rester_of(pair.body_b);
+    if (a == b) continue;  // within one island, or none
+    Rester& rester = a != nullptr ? *a : *b;
+    if (pair.adhesion > Real(0) || pair.grained) rester.held = true;
+    for (const Contact& contact : contacts_of(pair, world.contacts))
+      add_support(rester, pair, contact, b != nullptr);
+  }
+  StepList<std::uint32_t> sliding(&world.memory);
+  for (const Rester& rester : resters)
+    if (gathers_speed(world, rester)) sliding.push_back(rester.root);
+  return sliding;
 }
 
 void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
@@ -209,11 +293,13 @@ void sleep_islands(WorldState& world) {
   }
   if (resting.empty()) return;
   std::sort(resting.begin(), resting.end());
+  const StepList<std::uint32_t> sliding = find_sliding(world, resting);
   for (std::size_t i = 0; i < resting.size();) {
     std::vector<std::uint32_t> members;
     const std::uint32_t root = resting[i].first;
     for (; i < resting.size() && resting[i].first == root; ++i)
       members.push_back(resting[i].second);
+    if (std::binary_search(sliding.begin(), sliding.end(), root)) continue;
     store_island(world, std::move(members));
   }
   move_pairs_to_islands(world);
