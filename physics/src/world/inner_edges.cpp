@@ -219,6 +219,9 @@ void take_out(WorldState& world, const StepList<std::uint8_t>& hidden) {
     for (std::uint32_t k = begin; k < end; ++k)
       if (hidden[k] == 0) world.contacts[kept++] = world.contacts[k];
     pair.contact_count = kept - pair.first_contact;
+    // Those that stay may not be told anew without those that went: a neighbour may let them back.
+    if (pair.contact_count < end - begin)
+      for (Contact& contact : contacts_of(pair, world.contacts)) contact.kept.margin = Real(-1);
     if (begin != end) pair.touching = pair.contact_count > 0;
   }
   world.contacts.resize(kept);
