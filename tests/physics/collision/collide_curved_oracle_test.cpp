@@ -13,15 +13,12 @@ namespace plumb::inline PLUMB_ABI {
 namespace {
 
 using namespace detail;
+using oracle::as_vec;
 using oracle::Body;
 using oracle::Random;
 using oracle::V;
 
 constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
-
-Vec as_vec(const V& v) {
-  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
-}
 
 CollisionShape random_shape(Random& random, ShapeType type, double size, bool rounded) {
   // One in eight is a sliver.
