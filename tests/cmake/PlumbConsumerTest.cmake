@@ -17,6 +17,7 @@ add_test(NAME consumer.configure
           "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
           "-DCMAKE_EXE_LINKER_FLAGS=${CMAKE_EXE_LINKER_FLAGS}"
           "-DPRECISIONS=${PLUMB_ALL_PRECISIONS}"
+          "-DOTHER_HEADERS=${consumer_dir}/other_headers"
           "-DSANITIZE=${PLUMB_SANITIZE}"
           "-DCOMPONENTS=${consumer_components}")
 add_test(NAME consumer.build COMMAND ${CMAKE_COMMAND} --build "${consumer_dir}/build")
@@ -37,3 +38,11 @@ foreach(program IN LISTS consumer_programs)
   add_test(NAME consumer.${program} COMMAND "${consumer_dir}/build/${program}")
   set_tests_properties(consumer.${program} PROPERTIES FIXTURES_REQUIRED consumer_built)
 endforeach()
+
+add_test(NAME consumer.stale_library_does_not_link
+  COMMAND ${CMAKE_COMMAND} "-DINSTALLED=${consumer_prefix}/${CMAKE_INSTALL_INCLUDEDIR}"
+          "-DOTHER_HEADERS=${consumer_dir}/other_headers" "-DBUILD=${consumer_dir}/build"
+          "-DABI_TAG=${PROJECT_SOURCE_DIR}/physics/cmake/PlumbAbiTag.cmake"
+          -P "${CMAKE_CURRENT_SOURCE_DIR}/cmake/CheckStaleLibrary.cmake")
+set_tests_properties(consumer.stale_library_does_not_link PROPERTIES
+  FIXTURES_REQUIRED consumer_built)

@@ -34,6 +34,9 @@ inline Eigen::Quaterniond rotation_of(const detail::Transform& x) {
 inline V vec(detail::Vec v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
+inline detail::Vec as_vec(const V& v) {
+  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
 
 inline void add_face(Solid& s, std::vector<int> loop) {
   V area = V::Zero();
@@ -261,6 +264,23 @@ inline std::shared_ptr<const HullGeometry> random_hull(Random& random, int count
     }
     auto hull = hull_of_points(points);
     if (hull != nullptr && hull->inner_radius() > Real(0.1 * size)) return hull;
+  }
+}
+
+// A sphere, capsule, box or hull of so many corners, by its kind 0 to 3; sides between `least` of
+// the size [m] and the size.
+inline Shape random_shape(Random& random, int kind, double size, double least,
+                          int hull_corners = 8) {
+  const auto side = [&] { return static_cast<Real>(size * random.uniform(least, 1)); };
+  switch (kind) {
+    case 0:
+      return Sphere{side()};
+    case 1:
+      return Capsule{side(), side()};
+    case 2:
+      return Box{Vec3(side(), side(), side())};
+    default:
+      return ConvexHull{random_hull(random, hull_corners, size)};
   }
 }
 

@@ -46,17 +46,7 @@ struct Scene {
 };
 
 inline Shape random_shape(oracle::Random& random, double size) {
-  const auto side = [&] { return static_cast<Real>(size * random.uniform(0.15, 1)); };
-  switch (random.below(4)) {
-    case 0:
-      return Sphere{side()};
-    case 1:
-      return Capsule{side(), side()};
-    case 2:
-      return Box{Vec3(side(), side(), side())};
-    default:
-      return ConvexHull{oracle::random_hull(random, 9, size)};
-  }
+  return oracle::random_shape(random, random.below(4), size, 0.15, 9);
 }
 inline Quat random_turn(oracle::Random& random) {
   const detail::Rotation q = random.rotation();

@@ -119,8 +119,7 @@ inline Transform above(Random& random, const Ground& ground, double least, doubl
   const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
   const V at = under.corner[0] + u * (under.corner[1] - under.corner[0]) +
                v * (under.corner[2] - under.corner[0]) + random.uniform(least, most) * under.normal;
-  return {{static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
-          random.below(3) == 0 ? ground.placed.q : random.rotation()};
+  return {oracle::as_vec(at), random.below(3) == 0 ? ground.placed.q : random.rotation()};
 }
 
 // Whether a normal is one along which a point of the manifold can be touched: all triangles there
@@ -144,11 +143,16 @@ inline bool is_real(const Ground& ground, const Manifold& m, double half) {
   return some;
 }
 
+// The least separation of all points [m].
+inline double deepest_of(const Manifold& m) {
+  double deepest = 1e300;
+  for (int i = 0; i < m.count; ++i)
+    deepest = std::min(deepest, static_cast<double>(m.points[i].separation));
+  return deepest;
+}
 inline double deepest_of(const PartManifolds& all) {
   double deepest = 1e300;
-  for (const PartManifold& part : all.parts)
-    for (int i = 0; i < part.manifold.count; ++i)
-      deepest = std::min(deepest, static_cast<double>(part.manifold.points[i].separation));
+  for (const PartManifold& part : all.parts) deepest = std::min(deepest, deepest_of(part.manifold));
   return deepest;
 }
 

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "plumb/abi_tag.h"
 #include "plumb/collider.h"
 #include "plumb/effects.h"
 #include "plumb/events.h"

@@ -2,6 +2,7 @@
 #include "collision/collide.h"
 #include "collision/collide_parts.h"
 #include "collision/contact_points.h"
+#include "collision/core_support.h"
 #include "collision/gjk.h"
 #include "collision/round_core.h"
 
@@ -40,16 +41,7 @@ class PlacedCore {
 
  private:
   [[nodiscard]] NumVec local_support(NumVec d) const {
-    if (shape_.type == ShapeType::Hull) {
-      const std::vector<Vec3>& vertices = shape_.hull->vertices();
-      std::size_t farthest = 0;
-      Num best = dot(to_num(vertices[0]), d);
-      for (std::size_t i = 1; i < vertices.size(); ++i) {
-        const Num along = dot(to_num(vertices[i]), d);
-        if (along > best) best = along, farthest = i;
-      }
-      return to_num(vertices[farthest]);
-    }
+    if (shape_.type == ShapeType::Hull) return farthest_corner(*shape_.hull, d);
     if (is_curved(shape_.type)) return support_of_round(shape_, d);
     const NumVec half = to_num(shape_.half);
     return {d.x < Num(0) ? -half.x : half.x, d.y < Num(0) ? -half.y : half.y,

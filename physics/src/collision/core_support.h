@@ -7,6 +7,18 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
+// The first of the corners that are farthest in a direction [m].
+inline NumVec farthest_corner(const HullGeometry& hull, NumVec d) {
+  const std::vector<Vec3>& corners = hull.vertices();
+  std::size_t farthest = 0;
+  Num best = dot(to_num(corners[0]), d);
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const Num along = dot(to_num(corners[i]), d);
+    if (along > best) best = along, farthest = i;
+  }
+  return to_num(corners[farthest]);
+}
+
 // Farthest point of the core (without the radius) in a direction, shape frame [m].
 inline NumVec core_support(const CollisionShape& shape, NumVec d) {
   switch (shape.type) {
@@ -18,16 +30,8 @@ inline NumVec core_support(const CollisionShape& shape, NumVec d) {
       return {d.x < Num(0) ? -half.x : half.x, d.y < Num(0) ? -half.y : half.y,
               d.z < Num(0) ? -half.z : half.z};
     }
-    case ShapeType::Hull: {
-      const std::vector<Vec3>& vertices = shape.hull->vertices();
-      std::size_t farthest = 0;
-      Num best = dot(to_num(vertices[0]), d);
-      for (std::size_t i = 1; i < vertices.size(); ++i) {
-        const Num along = dot(to_num(vertices[i]), d);
-        if (along > best) best = along, farthest = i;
-      }
-      return to_num(vertices[farthest]);
-    }
+    case ShapeType::Hull:
+      return farthest_corner(*shape.hull, d);
     default:
       return to_num(support(shape, cast<Real>(d)));
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "world/slots.h"
+
 namespace plumb::inline PLUMB_ABI {
 
 const char* name_of_effect(std::size_t kind) {
@@ -29,18 +31,7 @@ void EffectStore::unlink(std::uint32_t slot) {
 }
 
 std::uint32_t EffectStore::create(const Effect& component) {
-  std::uint32_t slot;
-  if (free_slots.empty()) {
-    slot = static_cast<std::uint32_t>(info.size());
-    info.emplace_back();
-  } else {
-    slot = free_slots.back();
-    free_slots.pop_back();
-  }
-  const std::uint32_t generation = info[slot].generation + 1;
-  info[slot] = EffectInfo{};
-  info[slot].generation = generation;
-  info[slot].alive = true;
+  const std::uint32_t slot = take_slot(info, free_slots);
   info[slot].component = component;
   ++alive_count;
   link(slot);
@@ -57,10 +48,7 @@ void EffectStore::replace(std::uint32_t slot, const Effect& component) {
 
 void EffectStore::destroy(std::uint32_t slot) {
   unlink(slot);
-  const std::uint32_t generation = info[slot].generation;
-  info[slot] = EffectInfo{};
-  info[slot].generation = generation;
-  free_slots.push_back(slot);
+  free_slot(info, free_slots, slot);
   --alive_count;
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "world/slots.h"
+
 namespace plumb::inline PLUMB_ABI::detail {
 
 void BodyStore::push_dense(std::uint32_t slot) {
@@ -26,18 +28,7 @@ void BodyStore::swap_dense(std::uint32_t i, std::uint32_t j) {
 }
 
 std::uint32_t BodyStore::create() {
-  std::uint32_t slot;
-  if (free_slots.empty()) {
-    slot = static_cast<std::uint32_t>(info.size());
-    info.emplace_back();
-  } else {
-    slot = free_slots.back();
-    free_slots.pop_back();
-  }
-  const std::uint32_t generation = info[slot].generation + 1;
-  info[slot] = BodyInfo{};
-  info[slot].generation = generation;
-  info[slot].alive = true;
+  const std::uint32_t slot = take_slot(info, free_slots);
   info[slot].dense = dense_count();
   push_dense(slot);
   ++alive_count;
@@ -53,10 +44,7 @@ void BodyStore::destroy(std::uint32_t slot) {
   mass.pop_back();
   force.pop_back();
   slot_of.pop_back();
-  const std::uint32_t generation = info[slot].generation;
-  info[slot] = BodyInfo{};
-  info[slot].generation = generation;
-  free_slots.push_back(slot);
+  free_slot(info, free_slots, slot);
   --alive_count;
 }
 

@@ -8,6 +8,7 @@
 #include "collision/collision_shape.h"
 #include "plumb/collider.h"
 #include "plumb/ids.h"
+#include "world/slots.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -54,27 +55,8 @@ struct ColliderTrees {
 
 class ColliderStore {
  public:
-  std::uint32_t create() {
-    std::uint32_t slot;
-    if (free_slots.empty()) {
-      slot = static_cast<std::uint32_t>(info.size());
-      info.emplace_back();
-    } else {
-      slot = free_slots.back();
-      free_slots.pop_back();
-    }
-    const std::uint32_t generation = info[slot].generation + 1;
-    info[slot] = ColliderInfo{};
-    info[slot].generation = generation;
-    info[slot].alive = true;
-    return slot;
-  }
-  void destroy(std::uint32_t slot) {
-    const std::uint32_t generation = info[slot].generation;
-    info[slot] = ColliderInfo{};
-    info[slot].generation = generation;
-    free_slots.push_back(slot);
-  }
+  std::uint32_t create() { return take_slot(info, free_slots); }
+  void destroy(std::uint32_t slot) { free_slot(info, free_slots, slot); }
   [[nodiscard]] ColliderId id(std::uint32_t slot) const { return {slot, info[slot].generation}; }
 
   std::vector<ColliderInfo> info;

@@ -17,71 +17,10 @@
 //              12 motor: mode, linear x3, angular x3, force, torque, softness
 #include "world/joint_inputs.h"
 
+#include "world/number_visitors.h"
+
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
-
-// Writes every number it is shown.
-class Writer {
- public:
-  explicit Writer(std::vector<double>& out) : out_(out) {}
-  void operator()(Real& v) { out_.push_back(static_cast<double>(v)); }
-  void operator()(bool& v) { out_.push_back(v ? 1.0 : 0.0); }
-  void operator()(std::uint64_t& v) {
-    out_.push_back(static_cast<double>(v & 0xffffffffu));
-    out_.push_back(static_cast<double>(v >> 32));
-  }
-  void operator()(Vec3& v) { append(out_, v); }
-  void position(Pos3& p) { append_position(out_, p); }
-  void operator()(Quat& q) { append(out_, q); }
-  template <class Tag>
-  void operator()(Id<Tag>& id) {
-    std::uint64_t value = id.value();
-    (*this)(value);
-  }
-  template <class Enum>
-  void choice(Enum& v, std::uint32_t) {
-    out_.push_back(static_cast<double>(v));
-  }
-  template <class T>
-  bool presence(std::optional<T>& v) {
-    out_.push_back(v.has_value() ? 1.0 : 0.0);
-    return v.has_value();
-  }
-
- private:
-  std::vector<double>& out_;
-};
-
-// Fills every number it is shown.
-class Reader {
- public:
-  Reader(NumberReader& in, bool& ok) : in_(in), ok_(ok) {}
-  void operator()(Real& v) { v = in_.real(); }
-  void operator()(bool& v) { v = in_.flag(); }
-  void operator()(std::uint64_t& v) { v = in_.long_word(); }
-  void operator()(Vec3& v) { v = in_.vector(); }
-  void position(Pos3& p) { p = in_.position(); }
-  void operator()(Quat& q) { q = in_.orientation(); }
-  template <class Tag>
-  void operator()(Id<Tag>& id) {
-    id = Id<Tag>::from_value(in_.long_word());
-  }
-  template <class Enum>
-  void choice(Enum& v, std::uint32_t count) {
-    const std::uint32_t value = in_.word();
-    if (value >= count) ok_ = false;
-    v = static_cast<Enum>(value < count ? value : 0);
-  }
-  template <class T>
-  bool presence(std::optional<T>& v) {
-    if (in_.flag()) v.emplace();
-    return v.has_value();
-  }
-
- private:
-  NumberReader& in_;
-  bool& ok_;
-};
 
 template <class To>
 void visit(To& t, JointSoftness& s) {
@@ -173,33 +112,20 @@ struct KindVisitor {
   }
 };
 
-template <std::size_t I = 0>
-void choose_kind(JointKind& kind, std::uint32_t index) {
-  if constexpr (I < std::variant_size_v<JointKind>) {
-    if (index == I) {
-      kind.emplace<I>();
-    } else {
-      choose_kind<I + 1>(kind, index);
-    }
-  }
-}
-
 template <class To>
 void visit(To& t, Joint& joint) {
   t(joint.body_a);
   t(joint.body_b);
   for (LocalPose* frame : {&joint.frame_a, &joint.frame_b}) {
     t(frame->position);
-    t(frame->orientation);
+    t.unit(frame->orientation);
   }
   visit(t, joint.softness);
   t(joint.collide_connected);
   t(joint.break_force);
   t(joint.break_torque);
   t(joint.user_data);
-  std::uint32_t index = static_cast<std::uint32_t>(joint.kind.index());
-  t.choice(index, static_cast<std::uint32_t>(std::variant_size_v<JointKind>));
-  if (index != joint.kind.index()) choose_kind(joint.kind, index);
+  visit_index(t, joint.kind);
   std::visit(KindVisitor<To>{t}, joint.kind);
 }
 
@@ -208,35 +134,35 @@ void visit(To& t, Joint& joint) {
 // The visitors serve both directions; writing changes nothing.
 void append(std::vector<double>& out, const std::optional<JointMotor>& motor) {
   std::optional<JointMotor> copy = motor;
-  Writer writer(out);
+  NumberWriter writer(out);
   visit(writer, copy);
 }
 void append(std::vector<double>& out, const std::optional<JointLimit>& limit) {
   std::optional<JointLimit> copy = limit;
-  Writer writer(out);
+  NumberWriter writer(out);
   visit(writer, copy);
 }
 void append(std::vector<double>& out, const Joint& joint) {
   Joint copy = joint;
-  Writer writer(out);
+  NumberWriter writer(out);
   visit(writer, copy);
 }
 
 std::optional<JointMotor> read_motor(NumberReader& in, bool& ok) {
   std::optional<JointMotor> motor;
-  Reader reader(in, ok);
+  NumberFiller reader(in, ok);
   visit(reader, motor);
   return motor;
 }
 std::optional<JointLimit> read_limit(NumberReader& in, bool& ok) {
   std::optional<JointLimit> limit;
-  Reader reader(in, ok);
+  NumberFiller reader(in, ok);
   visit(reader, limit);
   return limit;
 }
 Joint read_joint(NumberReader& in, bool& ok) {
   Joint joint;
-  Reader reader(in, ok);
+  NumberFiller reader(in, ok);
   visit(reader, joint);
   return joint;
 }

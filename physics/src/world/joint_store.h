@@ -8,6 +8,7 @@
 
 #include "plumb/joint.h"
 #include "solver/joints/joint_memory.h"
+#include "world/slots.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -24,18 +25,7 @@ struct JointInfo {
 class JointStore {
  public:
   std::uint32_t create() {
-    std::uint32_t slot;
-    if (free_slots.empty()) {
-      slot = static_cast<std::uint32_t>(info.size());
-      info.emplace_back();
-    } else {
-      slot = free_slots.back();
-      free_slots.pop_back();
-    }
-    const std::uint32_t generation = info[slot].generation + 1;
-    info[slot] = JointInfo{};
-    info[slot].generation = generation;
-    info[slot].alive = true;
+    const std::uint32_t slot = take_slot(info, free_slots);
     ++alive_count;
     return slot;
   }
@@ -51,10 +41,7 @@ class JointStore {
   void destroy(std::uint32_t slot) {
     for (const std::uint32_t body : {info[slot].body_a, info[slot].body_b})
       if (body < of_body.size()) std::erase(of_body[body], slot);
-    const std::uint32_t generation = info[slot].generation;
-    info[slot] = JointInfo{};
-    info[slot].generation = generation;
-    free_slots.push_back(slot);
+    free_slot(info, free_slots, slot);
     --alive_count;
   }
   [[nodiscard]] bool empty() const { return alive_count == 0; }

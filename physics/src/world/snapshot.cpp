@@ -162,35 +162,20 @@ bool read_list(const Snapshot& in, const char* name, std::vector<std::uint32_t>&
 
 // Hulls are stored once, whatever the number of colliders that share them.
 void save_hulls(ColumnWriter& out, const std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
-  std::vector<std::uint64_t> sizes;
-  std::vector<double> numbers, written;
-  for (const auto& hull : hulls) {
-    Collider carrier;
-    carrier.shape = ConvexHull{hull};
-    written.clear();
-    append(written, carrier);
-    sizes.push_back(written.size());
-    numbers.insert(numbers.end(), written.begin(), written.end());
-  }
-  out.add("hull", "size", 1, false).integers = std::move(sizes);
-  out.add("hull", "numbers", 1, true).reals = std::move(numbers);
+  std::vector<Shape> shapes;
+  for (const auto& hull : hulls) shapes.emplace_back(ConvexHull{hull});
+  save_shapes(out, "hull", shapes);
 }
 
 bool restore_hulls(const Snapshot& in, std::vector<std::shared_ptr<const HullGeometry>>& hulls) {
-  const SnapshotColumn* sizes = in.find("hull.size");
-  const SnapshotColumn* numbers = in.find("hull.numbers");
-  if (sizes == nullptr || numbers == nullptr) return false;
-  std::size_t at = 0;
-  for (const std::uint64_t size : sizes->integers) {
-    if (size > numbers->reals.size() - at) return false;
-    NumberReader reader(std::span(numbers->reals).subspan(at, size));
-    const Collider carrier = reader.collider();
-    const auto* hull = std::get_if<ConvexHull>(&carrier.shape);
-    if (!reader.complete() || hull == nullptr) return false;
+  std::vector<Shape> shapes;
+  if (!restore_shapes(in, "hull", shapes)) return false;
+  for (const Shape& shape : shapes) {
+    const auto* hull = std::get_if<ConvexHull>(&shape);
+    if (hull == nullptr) return false;
     hulls.push_back(hull->geometry);
-    at += size;
   }
-  return at == numbers->reals.size();
+  return true;
 }
 
 bool is_unit(const Rotation& q) { return check_orientation(to_public(q)).ok(); }

@@ -1,5 +1,7 @@
 #include "world/snapshot_geometry.h"
 
+#include <algorithm>
+
 #include "plumb/compound.h"
 #include "world/inputs.h"
 
@@ -15,6 +17,37 @@ const void* geometry_of(const Shape& shape) {
 
 }  // namespace
 
+void save_shapes(ColumnWriter& out, const char* table, const std::vector<Shape>& shapes) {
+  std::vector<std::uint64_t> sizes;
+  std::vector<double> numbers, written;
+  for (const Shape& shape : shapes) {
+    Collider carrier;
+    carrier.shape = shape;
+    written.clear();
+    append(written, carrier);
+    sizes.push_back(written.size());
+    numbers.insert(numbers.end(), written.begin(), written.end());
+  }
+  out.add(table, "size", 1, false).integers = std::move(sizes);
+  out.add(table, "numbers", 1, true).reals = std::move(numbers);
+}
+
+bool restore_shapes(const Snapshot& in, const std::string& table, std::vector<Shape>& shapes) {
+  const SnapshotColumn* sizes = in.find(table + ".size");
+  const SnapshotColumn* numbers = in.find(table + ".numbers");
+  if (sizes == nullptr || numbers == nullptr) return false;
+  std::size_t at = 0;
+  for (const std::uint64_t size : sizes->integers) {
+    if (size > numbers->reals.size() - at) return false;
+    NumberReader reader(std::span(numbers->reals).subspan(at, size));
+    const Collider carrier = reader.collider();
+    if (!reader.complete()) return false;
+    shapes.push_back(carrier.shape);
+    at += size;
+  }
+  return at == numbers->reals.size();
+}
+
 std::uint32_t GeometryTable::add(const Shape& shape, double (&numbers)[4]) {
   Shape carrier = shape;
   if (auto* mesh = std::get_if<SurfaceMesh>(&carrier)) {
@@ -27,35 +60,12 @@ std::uint32_t GeometryTable::add(const Shape& shape, double (&numbers)[4]) {
   return index;
 }
 
-void GeometryTable::save(ColumnWriter& out) const {
-  std::vector<std::uint64_t> sizes;
-  std::vector<double> numbers, written;
-  for (const Shape& shape : shapes_) {
-    Collider carrier;
-    carrier.shape = shape;
-    written.clear();
-    append(written, carrier);
-    sizes.push_back(written.size());
-    numbers.insert(numbers.end(), written.begin(), written.end());
-  }
-  out.add("geometry", "size", 1, false).integers = std::move(sizes);
-  out.add("geometry", "numbers", 1, true).reals = std::move(numbers);
-}
+void GeometryTable::save(ColumnWriter& out) const { save_shapes(out, "geometry", shapes_); }
 
 bool GeometryTable::restore(const Snapshot& in) {
-  const SnapshotColumn* sizes = in.find("geometry.size");
-  const SnapshotColumn* numbers = in.find("geometry.numbers");
-  if (sizes == nullptr || numbers == nullptr) return false;
-  std::size_t at = 0;
-  for (const std::uint64_t size : sizes->integers) {
-    if (size > numbers->reals.size() - at) return false;
-    NumberReader reader(std::span(numbers->reals).subspan(at, size));
-    const Collider carrier = reader.collider();
-    if (!reader.complete() || geometry_of(carrier.shape) == nullptr) return false;
-    shapes_.push_back(carrier.shape);
-    at += size;
-  }
-  return at == numbers->reals.size();
+  return restore_shapes(in, "geometry", shapes_) &&
+         std::all_of(shapes_.begin(), shapes_.end(),
+                     [](const Shape& shape) { return geometry_of(shape) != nullptr; });
 }
 
 bool GeometryTable::take(std::uint32_t index, std::uint32_t kind, const double (&numbers)[4],

@@ -2,6 +2,7 @@
 // colliders that share it.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "plumb/shapes.h"
@@ -9,6 +10,11 @@
 #include "world/snapshot_table.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
+
+// Whole shapes as two columns of a table: how many numbers each takes, and the numbers.
+void save_shapes(ColumnWriter& out, const char* table, const std::vector<Shape>& shapes);
+// Appends the shapes; false when the columns are not those of shapes.
+bool restore_shapes(const Snapshot& in, const std::string& table, std::vector<Shape>& shapes);
 
 class GeometryTable {
  public:

@@ -16,17 +16,7 @@ using oracle::V;
 constexpr double kEps = static_cast<double>(std::numeric_limits<Real>::epsilon());
 
 CollisionShape shape_of(Random& random, int kind, double size) {
-  const auto side = [&] { return static_cast<Real>(size * random.uniform(0.05, 1)); };
-  switch (kind) {
-    case 0:
-      return make_collision_shape(Sphere{side()});
-    case 1:
-      return make_collision_shape(Capsule{side(), side()});
-    case 2:
-      return make_collision_shape(Box{Vec3(side(), side(), side())});
-    default:
-      return make_collision_shape(ConvexHull{oracle::random_hull(random, 8, size)});
-  }
+  return make_collision_shape(oracle::random_shape(random, kind, size, 0.05));
 }
 
 TEST(ClosestPoints, DistanceAndPointsAreThoseOfEveryFeatureAgainstEveryFeature) {

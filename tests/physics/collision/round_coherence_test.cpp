@@ -15,6 +15,7 @@ namespace {
 
 using namespace detail;
 using namespace testing_support;
+using oracle::as_vec;
 using oracle::Random;
 using oracle::V;
 
@@ -48,10 +49,6 @@ std::vector<Named> standers() {
       {"heightfield", make_collision_shape(Heightfield{surfaces::field(
                           11, 11, 0.8, [](int i, int k) { return bumps(i, 0.7 * k); })})});
   return all;
-}
-
-Vec as_vec(const V& v) {
-  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
 }
 
 double least(const Manifold& m) {

@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "support/curved_oracle.h"
-#include "support/surface_oracle.h"
+#include "support/surface_checks.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace {
 
 using namespace surface_oracle;
+using oracle::as_vec;
 
-constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
 constexpr int kKinds = 4;  // cylinder, cone, and both rounded
 
 CollisionShape random_round(Random& random, int kind, double size) {
@@ -25,10 +25,6 @@ CollisionShape random_round(Random& random, int kind, double size) {
   const Real half = flat ? b : a, radius = flat ? a : b;
   return kind % 2 == 0 ? make_collision_shape(Cylinder{half, radius, rounding})
                        : make_collision_shape(Cone{half, radius, rounding});
-}
-
-Vec as_vec(const V& v) {
-  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
 }
 
 // The smallest value in [0, 1] of a function without a second valley.
@@ -83,6 +79,7 @@ TEST(RoundOnSurfaceOracle, TheNearestContactIsAsFarAsEveryTriangleSays) {
   Random random(41);
   int near = 0;
   for (int trial = 0; trial < 2000; ++trial) {
+    SCOPED_TRACE(testing::Message() << "trial " << trial << " kind " << trial % kKinds);
     const double size = random.below(3) == 0 ? random.scale(1e-3, 1e4) : 1.0;
     const Ground ground = random_ground(random, size);
     const CollisionShape shape = random_round(random, trial % kKinds, 0.6 * size);
@@ -92,48 +89,36 @@ TEST(RoundOnSurfaceOracle, TheNearestContactIsAsFarAsEveryTriangleSays) {
     const Apart truth = apart_from(ground, body, oracle::vec(placed.p), reach);
     if (!(truth.distance > 0) || !truth.in_front) continue;
     const double margin = 0.2 * size;
-    PartManifolds all, back;
+    PartManifolds all;
     const bool hit =
         collide_parts(ground.shape, ground.placed, shape, placed, static_cast<Real>(margin), all);
     const double rounding = 64 * kEpsilon * 8 * size;
     const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
     if (truth.distance > margin + rounding) {
-      EXPECT_FALSE(hit) << "trial " << trial << " distance " << truth.distance / size;
+      EXPECT_FALSE(hit) << "distance " << truth.distance / size;
       continue;
     }
     if (truth.distance > margin - rounding) continue;
     ++near;
-    ASSERT_TRUE(hit) << "trial " << trial << " distance " << truth.distance / size << " kind "
-                     << trial % kKinds;
+    ASSERT_TRUE(hit) << "distance " << truth.distance / size;
     // Coplanar triangles share a normal: 2e-4 over the reach of the shape, and a preference of
     // 1e-3 of the half thickness for faces.
     EXPECT_NEAR(deepest_of(all), truth.distance, 1.2e-3 * half + 4e-4 * reach + rounding)
-        << "trial " << trial << " kind " << trial % kKinds << " size " << size;
+        << "size " << size;
     for (const PartManifold& part : all.parts) {
+      expect_points_on_ground(ground, part.manifold, 2e-3 * half + rounding);
       const V n = oracle::vec(part.manifold.normal);
-      EXPECT_NEAR(n.norm(), 1, 8 * kEpsilon);
       for (int i = 0; i < part.manifold.count; ++i) {
         const ManifoldPoint& point = part.manifold.points[i];
         const double s = static_cast<double>(point.separation);
-        const V below = oracle::vec(point.position) - 0.5 * s * n;
-        double off = 1e300;
-        for (const Triangle& t : ground.triangles) off = std::min(off, point_triangle(below, t));
-        EXPECT_LE(off, 2e-3 * half + rounding) << "trial " << trial << " kind " << trial % kKinds;
         const V above = oracle::vec(point.position) + 0.5 * s * n;
         // A rounded one keeps the deepest point of each triangle, though it bulges beyond it.
         if (trial % kKinds > 1 && s > deepest_of(all)) continue;
-        EXPECT_NEAR(body.distance(above), 0, 2e-3 * half + rounding)
-            << "trial " << trial << " kind " << trial % kKinds << " separation " << s / size;
+        EXPECT_NEAR(body.distance(above), 0, 2e-3 * half + rounding) << "separation " << s / size;
       }
     }
-    ASSERT_TRUE(
-        collide_parts(shape, placed, ground.shape, ground.placed, static_cast<Real>(margin), back));
-    ASSERT_EQ(back.parts.size(), all.parts.size());
-    for (std::size_t k = 0; k < all.parts.size(); ++k) {
-      EXPECT_EQ(back.parts[k].part, all.parts[k].part);
-      EXPECT_EQ(length(back.parts[k].manifold.normal + all.parts[k].manifold.normal), Real(0));
-      EXPECT_TRUE(k == 0 || all.parts[k - 1].part < all.parts[k].part);
-    }
+    ASSERT_NO_FATAL_FAILURE(
+        expect_same_swapped(ground, shape, placed, static_cast<Real>(margin), all));
   }
   std::printf("[ figures  ] %d near\n", near);
   EXPECT_GT(near, 500);
@@ -223,39 +208,14 @@ TEST(RoundOnSurfaceOracle, TheMeshOfASolidIsAsDeepAsTheSolid) {
 
 TEST(RoundOnSurfaceOracle, EveryNormalLiesInTheConeOfItsPlace) {
   Random random(47);
-  int parts = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
-    const Ground ground = random_ground(random, 1);
-    const CollisionShape shape = random_round(random, trial % kKinds, 0.6);
-    const Triangle& under = ground.triangles[static_cast<std::size_t>(
-        random.below(static_cast<int>(ground.triangles.size())))];
-    const V at =
-        (under.corner[0] + under.corner[1] + under.corner[2]) / 3 +
-        random.uniform(0.2, 1.0) * static_cast<double>(bounding_radius(shape)) * under.normal;
-    const Transform placed{as_vec(at), random.rotation()};
-    PartManifolds all;
-    collide_parts(ground.shape, ground.placed, shape, placed, Real(0.1), all);
-    const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
-    for (const PartManifold& part : all.parts) {
-      ++parts;
-      EXPECT_TRUE(is_real(ground, part.manifold, half))
-          << "trial " << trial << " kind " << trial % kKinds << " part " << part.part;
-    }
-  }
-  EXPECT_GT(parts, 3000);
+  EXPECT_GT(expect_normals_in_their_cones(random, kKinds, random_round), 3000);
 }
 
 // However a plane is cut into triangles, what lies on it has the contact that it has with a
 // half-space, on as many points.
 TEST(RoundOnSurfaceOracle, APlaneOfTrianglesIsAHalfSpace) {
   Random random(53);
-  const CollisionShape plane = make_collision_shape(HalfSpace{});
-  std::vector<CollisionShape> cuts;
-  for (const auto& [nx, nz] : {std::pair{1, 1}, {7, 5}, {40, 1}, {1, 60}, {30, 30}})
-    cuts.push_back(make_collision_shape(
-        SurfaceMesh{surfaces::made(surfaces::grid(-4, 4, -4, 4, nx, nz, surfaces::level, true))}));
-  cuts.push_back(make_collision_shape(
-      Heightfield{surfaces::field(41, 41, 0.2, [](int, int) { return 0.0; })}));
+  const std::vector<CutPlane> cuts = cut_planes();
   const Real h = std::sqrt(Real(0.5));
   for (int trial = 0; trial < 1500; ++trial) {
     const CollisionShape shape = random_round(random, trial % kKinds, 0.5);
@@ -267,32 +227,15 @@ TEST(RoundOnSurfaceOracle, APlaneOfTrianglesIsAHalfSpace) {
     const Aabb box = bounds_of(shape, placed);
     const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
     placed.p.y = -box.lower.y + static_cast<Real>(random.uniform(-0.2, 0.2) * half);
-    Manifold truth;
-    const bool touches =
-        collide(plane, {{0, 0, 0}, {0, 0, 0, 1}}, shape, placed, Real(0.05), truth);
-    for (std::size_t c = 0; c < cuts.size(); ++c) {
-      const bool is_field = c + 1 == cuts.size();
-      const Transform at{{is_field ? Real(-4) : Real(0), 0, is_field ? Real(-4) : Real(0)},
-                         {0, 0, 0, 1}};
-      PartManifolds all;
-      ASSERT_EQ(collide_parts(cuts[c], at, shape, placed, Real(0.05), all), touches);
-      if (!touches) continue;
-      ASSERT_EQ(all.parts.size(), 1U)
-          << "trial " << trial << " cut " << c << " kind " << trial % kKinds;
-      const Manifold& m = all.parts[0].manifold;
-      EXPECT_EQ(m.normal.y, Real(1));
-      // A rounded rim keeps the points that its rounding does not miss: the deepest at least.
-      const int least = trial % kKinds > 1 ? 1 : std::min(truth.count, 2);
-      EXPECT_GE(m.count, least) << "trial " << trial << " cut " << c;
-      double deepest = 1, deepest_truth = 1;
-      for (int i = 0; i < m.count; ++i)
-        deepest = std::min(deepest, static_cast<double>(m.points[i].separation));
-      for (int i = 0; i < truth.count; ++i)
-        deepest_truth = std::min(deepest_truth, static_cast<double>(truth.points[i].separation));
-      // A disc that lies flat to kDeepestTie of the half thickness takes any points of its rim.
-      EXPECT_NEAR(deepest, deepest_truth, 1.1e-4 * half + 64 * kEpsilon)
-          << "trial " << trial << " cut " << c << " kind " << trial % kKinds;
-    }
+    SCOPED_TRACE(testing::Message() << "trial " << trial << " kind " << trial % kKinds);
+    // A disc that lies flat to kDeepestTie of the half thickness takes any points of its rim.
+    const double tolerance = 1.1e-4 * half + 64 * kEpsilon;
+    ASSERT_NO_FATAL_FAILURE(expect_a_half_space(
+        cuts, shape, placed, tolerance, [&](const Manifold& m, const Manifold& truth) {
+          // A rounded rim keeps the points that its rounding does not miss: the deepest at least.
+          const int least = trial % kKinds > 1 ? 1 : std::min(truth.count, 2);
+          EXPECT_GE(m.count, least);
+        }));
   }
 }
 

@@ -11,6 +11,7 @@ namespace plumb::inline PLUMB_ABI {
 namespace {
 
 using namespace detail;
+using oracle::as_vec;
 using oracle::Body;
 using oracle::Random;
 using oracle::V;
@@ -19,7 +20,6 @@ constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Real>::epsil
 constexpr Transform kHere{{0, 0, 0}, {0, 0, 0, 1}};
 
 Real real(double x) { return static_cast<Real>(x); }
-Vec as_vec(const V& v) { return {real(v.x()), real(v.y()), real(v.z())}; }
 
 std::vector<Shape> some_shapes() {
   Random random(3);

@@ -3,16 +3,14 @@
 // every triangle says; every normal is one along which the surface around the point lies downhill;
 // every point lies on the surface; a closed mesh is as deep as the solid it bounds; swapping the
 // shapes changes nothing but signs.
-#include "support/surface_oracle.h"
-
 #include <gtest/gtest.h>
+
+#include "support/surface_checks.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace {
 
 using namespace surface_oracle;
-
-constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
 
 // Whether an edge of either passes through the other: the cores of the shapes meet.
 bool passes_through(const V& a, const V& b, const Triangle& t) {
@@ -56,30 +54,22 @@ double distance_from(const Ground& g, const oracle::Solid& s) {
 constexpr int kKinds = 6;  // sphere, capsule, box, hull, and the last two rounded
 
 CollisionShape random_convex(Random& random, int kind, double size) {
-  const auto side = [&] { return static_cast<Real>(size * random.uniform(0.3, 1)); };
   if (kind > 3) {
+    const auto side = [&] { return static_cast<Real>(size * random.uniform(0.3, 1)); };
     const Real rounding = static_cast<Real>(size * random.uniform(0.02, 0.4));
     if (kind == 4) return make_collision_shape(Box{Vec3(side(), side(), side()), rounding});
     return make_collision_shape(
         ConvexHull{oracle::random_hull(random, 6 + random.below(6), size), rounding});
   }
-  switch (kind) {
-    case 0:
-      return make_collision_shape(Sphere{side()});
-    case 1:
-      return make_collision_shape(Capsule{side(), side()});
-    case 2:
-      return make_collision_shape(Box{Vec3(side(), side(), side())});
-    default:
-      return make_collision_shape(
-          ConvexHull{oracle::random_hull(random, 6 + random.below(6), size)});
-  }
+  const int hull_corners = kind == 3 ? 6 + random.below(6) : 0;
+  return make_collision_shape(oracle::random_shape(random, kind, size, 0.3, hull_corners));
 }
 
 TEST(SurfaceOracle, TheNearestContactIsAsFarAsEveryFeatureSays) {
   Random random(17);
   int near = 0;
   for (int trial = 0; trial < 4000; ++trial) {
+    SCOPED_TRACE(testing::Message() << "trial " << trial << " kind " << trial % kKinds);
     const double size = random.below(3) == 0 ? random.scale(1e-3, 1e4) : 1.0;
     const Ground ground = random_ground(random, size);
     const CollisionShape shape = random_convex(random, trial % kKinds, 0.6 * size);
@@ -102,66 +92,28 @@ TEST(SurfaceOracle, TheNearestContactIsAsFarAsEveryFeatureSays) {
         collide_parts(ground.shape, ground.placed, shape, placed, static_cast<Real>(margin), all);
     const double rounding = 64 * kEpsilon * 8 * size;
     if (distance > margin + rounding) {
-      EXPECT_FALSE(hit) << "trial " << trial << " distance " << distance / size;
+      EXPECT_FALSE(hit) << "distance " << distance / size;
       continue;
     }
     if (distance > margin - rounding) continue;
     ++near;
-    ASSERT_TRUE(hit) << "trial " << trial << " distance " << distance / size << " kind "
-                     << trial % kKinds;
+    ASSERT_TRUE(hit) << "distance " << distance / size;
     // Coplanar triangles share a normal: 2e-4 over the reach of the shape, and a preference of
     // 1e-3 of the half thickness for faces.
     const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
     EXPECT_NEAR(deepest_of(all), distance, 1.2e-3 * half + 4e-4 * reach + rounding)
-        << "trial " << trial << " kind " << trial % kKinds << " size " << size;
-    for (const PartManifold& part : all.parts) {
-      const V n = oracle::vec(part.manifold.normal);
-      EXPECT_NEAR(n.norm(), 1, 8 * kEpsilon);
-      for (int i = 0; i < part.manifold.count; ++i) {
-        const ManifoldPoint& point = part.manifold.points[i];
-        const double s = static_cast<double>(point.separation);
-        const V below = oracle::vec(point.position) - 0.5 * s * n;
-        double off = 1e300;
-        for (const Triangle& t : ground.triangles) off = std::min(off, point_triangle(below, t));
-        EXPECT_LE(off, 2e-3 * half + rounding) << "trial " << trial << " kind " << trial % kKinds;
-      }
-    }
-    PartManifolds back;
-    ASSERT_TRUE(
-        collide_parts(shape, placed, ground.shape, ground.placed, static_cast<Real>(margin), back));
-    ASSERT_EQ(back.parts.size(), all.parts.size());
-    for (std::size_t k = 0; k < all.parts.size(); ++k) {
-      EXPECT_EQ(back.parts[k].part, all.parts[k].part);
-      EXPECT_EQ(length(back.parts[k].manifold.normal + all.parts[k].manifold.normal), Real(0));
-      EXPECT_TRUE(k == 0 || all.parts[k - 1].part < all.parts[k].part);
-    }
+        << "size " << size;
+    for (const PartManifold& part : all.parts)
+      expect_points_on_ground(ground, part.manifold, 2e-3 * half + rounding);
+    ASSERT_NO_FATAL_FAILURE(
+        expect_same_swapped(ground, shape, placed, static_cast<Real>(margin), all));
   }
   EXPECT_GT(near, 700);
 }
 
-// At the point of the surface under each contact all of its triangles go downhill along the normal,
-// or the normal is that of one of them.
 TEST(SurfaceOracle, EveryNormalLiesInTheConeOfItsPlace) {
   Random random(23);
-  for (int trial = 0; trial < 3000; ++trial) {
-    const Ground ground = random_ground(random, 1);
-    const CollisionShape shape = random_convex(random, trial % kKinds, 0.6);
-    const Triangle& under = ground.triangles[static_cast<std::size_t>(
-        random.below(static_cast<int>(ground.triangles.size())))];
-    const V at =
-        (under.corner[0] + under.corner[1] + under.corner[2]) / 3 +
-        random.uniform(0.2, 1.0) * static_cast<double>(bounding_radius(shape)) * under.normal;
-    const Transform placed{
-        {static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
-        random.rotation()};
-    PartManifolds all;
-    collide_parts(ground.shape, ground.placed, shape, placed, Real(0.1), all);
-    const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
-    for (const PartManifold& part : all.parts) {
-      EXPECT_TRUE(is_real(ground, part.manifold, half))
-          << "trial " << trial << " kind " << trial % kKinds << " part " << part.part;
-    }
-  }
+  EXPECT_GT(expect_normals_in_their_cones(random, kKinds, random_convex), 3000);
 }
 
 // The mesh of a box is the box, and that of a plane is the half-space, while the overlap is small.
@@ -175,9 +127,7 @@ TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
     const CollisionShape shape = random_convex(random, trial % kKinds, 0.6);
     const Transform fixed{{0, 0, 0}, random.rotation()};
     const V at = random.uniform(1, 3) * random.direction();
-    const Transform placed{
-        {static_cast<Real>(at.x()), static_cast<Real>(at.y()), static_cast<Real>(at.z())},
-        random.below(3) == 0 ? fixed.q : random.rotation()};
+    const Transform placed{oracle::as_vec(at), random.below(3) == 0 ? fixed.q : random.rotation()};
     const double truth =
         oracle::signed_distance(oracle::solid_of(box, fixed), oracle::solid_of(shape, placed));
     const double half = 0.5 * static_cast<double>(smallest_thickness(shape));
@@ -195,9 +145,7 @@ TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
     ASSERT_TRUE(hit) << "trial " << trial << " kind " << trial % kKinds << " depth " << truth;
     double least = 0;  // the shallowest part is the way out
     for (const PartManifold& part : all.parts) {
-      double deepest = 0;
-      for (int i = 0; i < part.manifold.count; ++i)
-        deepest = std::min(deepest, static_cast<double>(part.manifold.points[i].separation));
+      const double deepest = std::min(0.0, deepest_of(part.manifold));
       least = least == 0 ? deepest : std::max(least, deepest);
     }
     // Of cores that are still apart every point is as deep as it is near.
@@ -210,13 +158,7 @@ TEST(SurfaceOracle, AClosedMeshIsAsDeepAsItsSolid) {
 // However a plane is cut into triangles, what lies on it has the contacts it has with a half-space.
 TEST(SurfaceOracle, APlaneOfTrianglesIsAHalfSpace) {
   Random random(31);
-  const CollisionShape plane = make_collision_shape(HalfSpace{});
-  std::vector<CollisionShape> cuts;
-  for (const auto& [nx, nz] : {std::pair{1, 1}, {7, 5}, {40, 1}, {1, 60}, {30, 30}})
-    cuts.push_back(make_collision_shape(
-        SurfaceMesh{surfaces::made(surfaces::grid(-4, 4, -4, 4, nx, nz, surfaces::level, true))}));
-  cuts.push_back(make_collision_shape(
-      Heightfield{surfaces::field(41, 41, 0.2, [](int, int) { return 0.0; })}));
+  const std::vector<CutPlane> cuts = cut_planes();
   for (int trial = 0; trial < 1500; ++trial) {
     const CollisionShape shape = random_convex(random, trial % kKinds, 0.5);
     // Lying flat in a third of all.
@@ -228,41 +170,23 @@ TEST(SurfaceOracle, APlaneOfTrianglesIsAHalfSpace) {
         {static_cast<Real>(random.uniform(-1, 1)), 0, static_cast<Real>(random.uniform(-1, 1))}, q};
     const Aabb box = bounds_of(shape, placed);
     placed.p.y = -box.lower.y + static_cast<Real>(random.uniform(-0.02, 0.02));
-    Manifold truth;
-    const bool touches =
-        collide(plane, {{0, 0, 0}, {0, 0, 0, 1}}, shape, placed, Real(0.05), truth);
-    for (std::size_t c = 0; c < cuts.size(); ++c) {
-      const bool is_field = c + 1 == cuts.size();
-      const Transform at{{is_field ? Real(-4) : Real(0), 0, is_field ? Real(-4) : Real(0)},
-                         {0, 0, 0, 1}};
-      PartManifolds all;
-      ASSERT_EQ(collide_parts(cuts[c], at, shape, placed, Real(0.05), all), touches);
-      if (!touches) continue;
-      ASSERT_EQ(all.parts.size(), 1U)
-          << "trial " << trial << " cut " << c << " kind " << trial % kKinds;
-      const Manifold& m = all.parts[0].manifold;
-      EXPECT_EQ(m.normal.y, Real(1));
-      EXPECT_GE(m.count, truth.count > 2 && trial % kKinds > 1 ? 3 : 1);
-      double deepest = 1, deepest_truth = 1;
-      for (int i = 0; i < m.count; ++i)
-        deepest = std::min(deepest, static_cast<double>(m.points[i].separation));
-      for (int i = 0; i < truth.count; ++i)
-        deepest_truth = std::min(deepest_truth, static_cast<double>(truth.points[i].separation));
-      // Points of two triangles that coincide to a thousandth of the half thickness are one, as
-      // deep as the deeper of them to a millionth.
-      EXPECT_NEAR(deepest, deepest_truth, 1e-6 * 0.5 + 64 * kEpsilon)
-          << "trial " << trial << " cut " << c;
-      // The same support: each point of one has one of the other at its side.
-      if (trial % kKinds == 2 && truth.count == m.count) {
-        for (int i = 0; i < m.count; ++i) {
-          double nearest = 1;
-          for (int k = 0; k < truth.count; ++k)
-            nearest = std::min(nearest, static_cast<double>(length(m.points[i].position -
-                                                                   truth.points[k].position)));
-          EXPECT_LT(nearest, 2e-3) << "trial " << trial << " cut " << c;
-        }
-      }
-    }
+    SCOPED_TRACE(testing::Message() << "trial " << trial << " kind " << trial % kKinds);
+    // Points of two triangles that coincide to a thousandth of the half thickness are one, as deep
+    // as the deeper of them to a millionth.
+    const double tolerance = 1e-6 * 0.5 + 64 * kEpsilon;
+    ASSERT_NO_FATAL_FAILURE(expect_a_half_space(
+        cuts, shape, placed, tolerance, [&](const Manifold& m, const Manifold& truth) {
+          EXPECT_GE(m.count, truth.count > 2 && trial % kKinds > 1 ? 3 : 1);
+          // The same support: each point of one has one of the other at its side.
+          if (trial % kKinds != 2 || truth.count != m.count) return;
+          for (int i = 0; i < m.count; ++i) {
+            double nearest = 1;
+            for (int k = 0; k < truth.count; ++k)
+              nearest = std::min(nearest, static_cast<double>(length(m.points[i].position -
+                                                                     truth.points[k].position)));
+            EXPECT_LT(nearest, 2e-3);
+          }
+        }));
   }
 }
 

@@ -21,17 +21,7 @@ NumVec num(const V& v) { return {v.x(), v.y(), v.z()}; }
 V eigen(NumVec v) { return {v.x, v.y, v.z}; }
 
 CollisionShape shape_of(Random& random, int kind, double size) {
-  const auto side = [&] { return static_cast<Real>(size * random.uniform(0.05, 1)); };
-  switch (kind) {
-    case 0:
-      return make_collision_shape(Sphere{side()});
-    case 1:
-      return make_collision_shape(Capsule{side(), side()});
-    case 2:
-      return make_collision_shape(Box{Vec3(side(), side(), side())});
-    default:
-      return make_collision_shape(ConvexHull{oracle::random_hull(random, 8, size)});
-  }
+  return make_collision_shape(oracle::random_shape(random, kind, size, 0.05));
 }
 
 NumRotation rotation(Random& random) {

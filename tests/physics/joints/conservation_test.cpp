@@ -1,6 +1,6 @@
 // Proves that joints between free bodies only exchange momentum and angular momentum, whatever
 // their kind and state of error, and that what they hold does not drift.
-#include "joint_scenes.h"
+#include "tumblers.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace {
@@ -39,28 +39,14 @@ std::vector<Case> all_kinds() {
           {"motor", motor}};
 }
 
-struct Pair {
-  BodyId a, b;
-};
-// Two bodies of unequal moments that move and tumble, turned in general position.
-Pair add_pair(PhysicsWorld& world) {
-  RigidBody a = free_body(2, {1, 2, 2.5}), b = free_body(0.5, {0.1, 0.2, 0.25});
-  a.pose = at(Vector3d(0, 0, 0), turn(0.3, {1, 2, 3}));
-  a.linear_velocity = vec(1, 0, 0);
-  a.angular_velocity = vec(1, 2, -1);
-  b.pose = at(Vector3d(1, 0.5, 0), turn(1.1, {0, 2, 3}));
-  b.linear_velocity = vec(0, 1, 2);
-  a.can_sleep = b.can_sleep = false;
-  return {must(world.create_body(a)), must(world.create_body(b))};
-}
-
 TEST(JointConservation, EveryKindKeepsBothMomentaOfTwoFreeBodies) {
   for (int n = 0; n < 2 * static_cast<int>(all_kinds().size()); ++n) {
     const Case c = all_kinds()[static_cast<std::size_t>(n / 2)];
-    WorldSettings settings = no_gravity();
+    Tumblers pair;
+    PhysicsWorld& world = pair.world;
+    WorldSettings settings = world.settings();
     settings.joint_order = n % 2 == 0 ? 2 : 4;
-    PhysicsWorld world(settings);
-    const Pair pair = add_pair(world);
+    must(world.set_settings(settings));
     // Off-centre frames that do not even coincide: the joint has errors to work off.
     Joint joint = joint_at(world, pair.a, pair.b, c.kind, {0.5, 0.3, -0.2}, {1, 1, 0});
     joint.frame_b.position += vec(0.05, 0, -0.03);
@@ -79,8 +65,8 @@ TEST(JointConservation, EveryKindKeepsBothMomentaOfTwoFreeBodies) {
 TEST(JointConservation, RigidJointsKeepEnergyAndDoNotDriftInAMinute) {
   for (const JointKind& kind : {JointKind(BallJoint{}), JointKind(HingeJoint{}),
                                 JointKind(SliderJoint{}), JointKind(FixedJoint{})}) {
-    PhysicsWorld world(no_gravity());
-    const Pair pair = add_pair(world);
+    Tumblers pair;
+    PhysicsWorld& world = pair.world;
     const JointId id = must(
         world.create_joint(joint_at(world, pair.a, pair.b, kind, {0.5, 0.3, -0.2}, {1, 1, 0})));
     world.step(1.0 / 60);  // the bodies begin with velocities that the joint does not allow

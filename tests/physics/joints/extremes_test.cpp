@@ -1,28 +1,12 @@
 // Proves that joints stay calm where their equations are at their worst: limits and friction that
 // hold the same turn, springs that no substep can follow, a pulley one of whose ends has arrived, a
 // joint with as many soft rows as there can be.
-#include "joint_scenes.h"
+#include "tumblers.h"
 
 namespace plumb::inline PLUMB_ABI {
 namespace {
 
 using namespace joint_scenes;
-
-struct Tumblers {
-  PhysicsWorld world{no_gravity()};
-  BodyId a, b;
-  Tumblers() {
-    RigidBody first = free_body(2, {1, 2, 2.5}), second = free_body(0.5, {0.1, 0.2, 0.25});
-    first.pose = at(Vector3d(0, 0, 0), turn(0.3, {1, 2, 3}));
-    first.linear_velocity = vec(1, 0, 0);
-    first.angular_velocity = vec(1, 2, -1);
-    second.pose = at(Vector3d(1, 0.5, 0), turn(1.1, {0, 2, 3}));
-    second.linear_velocity = vec(0, 1, 2);
-    first.can_sleep = second.can_sleep = false;
-    a = must(world.create_body(first));
-    b = must(world.create_body(second));
-  }
-};
 
 // Both limits and the friction of a cone-twist joint ask for rates in three dimensions.
 TEST(JointExtremes, FrictionBesideLimitsGainsNothing) {

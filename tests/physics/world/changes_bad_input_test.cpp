@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "support/measure.h"
+#include "support/refusals.h"
 #include "support/scenes.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -15,11 +16,9 @@ namespace {
 using namespace scenes;
 using Eigen::Vector3d;
 
-const double kNan = std::numeric_limits<double>::quiet_NaN();
-const double kInf = std::numeric_limits<double>::infinity();
 constexpr double kDt = 1.0 / 60;  // [s]
 
-class BadChange : public ::testing::Test {
+class BadChange : public Refusals {
  protected:
   BadChange() {
     for (PhysicsWorld* w : {&world_, &twin_}) {
@@ -31,18 +30,6 @@ class BadChange : public ::testing::Test {
       run(*w, 0.2);
     }
     collider_ = world_.colliders_of(body_)[0];
-  }
-  void TearDown() override {
-    EXPECT_TRUE(world_.save() == twin_.save());
-    for (int i = 0; i < 60; ++i) {
-      world_.step(kDt);
-      twin_.step(kDt);
-      ASSERT_EQ(world_.state_hash(), twin_.state_hash()) << "step " << i;
-    }
-  }
-  static void refused(const Status& status, const char* what) {
-    EXPECT_FALSE(status.ok()) << what << " was accepted";
-    EXPECT_GE(std::string(status.message).size(), 10u) << what << " has no message";
   }
   // Every change as a call on these handles, with numbers that are good.
   static std::vector<std::pair<const char*, Status>> all_changes(PhysicsWorld& world, BodyId body,
@@ -63,7 +50,6 @@ class BadChange : public ::testing::Test {
             {"set_one_way", world.set_one_way(collider, vec(0, 1, 0))},
             {"set_user_data", world.set_user_data(collider, 1)}};
   }
-  PhysicsWorld world_, twin_;
   BodyId ground_, body_, sleeper_;
   ColliderId collider_;
 };

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "support/measure.h"
-#include "support/recorder.h"
+#include "support/replay_checks.h"
 #include "support/scenes.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -14,9 +14,6 @@ namespace {
 
 using namespace scenes;
 using Eigen::Vector3d;
-
-constexpr double kDt = 1.0 / 60;  // [s]
-constexpr int kSteps = 300;
 
 struct Scene {
   BodyId floor, shelf, zone, hub;
@@ -107,84 +104,18 @@ void disturb(PhysicsWorld& world, const Scene& scene, int step) {
   must(world.set_user_data(collider(k), static_cast<std::uint64_t>(k)));
 }
 
-std::vector<std::uint64_t> hashes(JobSystem* jobs) {
-  PhysicsWorld world;
-  world.set_job_system(jobs);
-  const Scene scene = build(world);
-  std::vector<std::uint64_t> out;
-  for (int i = 0; i < kSteps; ++i) {
-    disturb(world, scene, i);
-    world.step(kDt);
-    out.push_back(world.state_hash());
-  }
-  EXPECT_TRUE(all_finite(world));
-  return out;
-}
+constexpr DisturbedRun<Scene> kRun{build, disturb, 300};
 
-TEST(ChangesReplay, AnyNumberOfThreads) {
-  const std::vector<std::uint64_t> serial = hashes(nullptr);
-  for (int threads : {2, 4}) {
-    const std::unique_ptr<JobSystem> pool = make_thread_pool(threads);
-    EXPECT_EQ(serial, hashes(pool.get())) << threads << " threads";
-  }
-}
+TEST(ChangesReplay, AnyNumberOfThreads) { expect_same_with_threads(kRun); }
 
 // Saved both before the changes of a step and between them and the step.
 TEST(ChangesReplay, SaveAndRestoreInTheMiddle) {
-  PhysicsWorld world;
-  const Scene scene = build(world);
-  struct Saved {
-    int step;
-    bool disturbed;
-    Snapshot snapshot;
-  };
-  std::vector<Saved> saved;
-  std::vector<std::uint64_t> after;
-  std::vector<std::vector<SensorOverlap>> seen;
-  for (int i = 0; i < kSteps; ++i) {
-    if (i % 50 == 23) saved.push_back({i, false, world.save()});
-    disturb(world, scene, i);
-    if (i % 45 == 20) saved.push_back({i, true, world.save()});
-    world.step(kDt);
-    after.push_back(world.state_hash());
-    seen.emplace_back(world.events().overlaps.begin(), world.events().overlaps.end());
-  }
-  for (const Saved& from : saved) {
-    PhysicsWorld resumed;
-    must(resumed.restore(from.snapshot));
-    EXPECT_TRUE(resumed.save() == from.snapshot);
-    for (int i = from.step; i < kSteps; ++i) {
-      if (i > from.step || !from.disturbed) disturb(resumed, scene, i);
-      resumed.step(kDt);
-      const std::size_t k = static_cast<std::size_t>(i);
-      ASSERT_EQ(resumed.state_hash(), after[k]) << "saved at " << from.step << ", step " << i;
-      ASSERT_TRUE(std::equal(seen[k].begin(), seen[k].end(), resumed.events().overlaps.begin(),
-                             resumed.events().overlaps.end()))
-          << "saved at " << from.step << ", step " << i;
-    }
-  }
+  expect_same_after_restore(
+      kRun, [](int step, bool disturbed) { return disturbed ? step % 45 == 20 : step % 50 == 23; });
 }
 
 TEST(ChangesReplay, RecordedInputsReplayIntoAnEmptyWorld) {
-  InputRecorder recorder;
-  PhysicsWorld world;
-  world.attach(&recorder);
-  const Scene scene = build(world);
-  for (int i = 0; i < kSteps; ++i) {
-    disturb(world, scene, i);
-    world.step(kDt);
-  }
-  PhysicsWorld replay;
-  std::set<InputKind> kinds;
-  for (std::size_t i = 0; i < recorder.frames.size(); ++i) {
-    for (const InputRecord& input : recorder.frames[i].inputs) {
-      kinds.insert(input.kind);
-      ASSERT_TRUE(replay.apply_input(input).ok()) << name_of(input.kind) << " at step " << i;
-    }
-    replay.step(recorder.frames[i].dt);
-    ASSERT_EQ(replay.state_hash(), recorder.frames[i].hash) << "step " << i;
-  }
-  EXPECT_TRUE(replay.save() == world.save());
+  const std::set<InputKind> kinds = expect_same_in_replay(kRun);
   for (auto kind = InputKind::DeriveMass; kind <= InputKind::SetColliderUserData;
        kind = static_cast<InputKind>(static_cast<std::uint32_t>(kind) + 1))
     EXPECT_TRUE(kinds.contains(kind)) << name_of(kind) << " was never recorded";

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "support/measure.h"
-#include "support/recorder.h"
+#include "support/replay_checks.h"
 #include "support/scenes.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -14,9 +14,6 @@ namespace {
 
 using namespace scenes;
 using Eigen::Vector3d;
-
-constexpr double kDt = 1.0 / 60;  // [s]
-constexpr int kSteps = 240;
 
 struct Scene {
   std::vector<BodyId> bodies;
@@ -85,72 +82,16 @@ void disturb(PhysicsWorld& world, const Scene& scene, int step) {
     must(world.exclude_pair(world.colliders_of(scene.bodies[5])[0], scene.shelf, false));
 }
 
-std::vector<std::uint64_t> hashes(JobSystem* jobs) {
-  PhysicsWorld world;
-  world.set_job_system(jobs);
-  const Scene scene = build(world);
-  std::vector<std::uint64_t> out;
-  for (int i = 0; i < kSteps; ++i) {
-    disturb(world, scene, i);
-    world.step(kDt);
-    out.push_back(world.state_hash());
-  }
-  return out;
-}
+constexpr DisturbedRun<Scene> kRun{build, disturb, 240};
 
-TEST(ContactDataReplay, AnyNumberOfThreads) {
-  const std::vector<std::uint64_t> serial = hashes(nullptr);
-  for (int threads : {2, 4}) {
-    const std::unique_ptr<JobSystem> pool = make_thread_pool(threads);
-    EXPECT_EQ(serial, hashes(pool.get())) << threads << " threads";
-  }
-}
+TEST(ContactDataReplay, AnyNumberOfThreads) { expect_same_with_threads(kRun); }
 
 TEST(ContactDataReplay, SaveAndRestoreInTheMiddle) {
-  PhysicsWorld world;
-  const Scene scene = build(world);
-  std::vector<Snapshot> snapshots;
-  std::vector<std::uint64_t> after;
-  std::vector<std::vector<SensorOverlap>> seen;
-  for (int i = 0; i < kSteps; ++i) {
-    if (i % 20 == 7) snapshots.push_back(world.save());
-    disturb(world, scene, i);
-    world.step(kDt);
-    after.push_back(world.state_hash());
-    seen.emplace_back(world.events().overlaps.begin(), world.events().overlaps.end());
-  }
-  for (std::size_t k = 0; k < snapshots.size(); ++k) {
-    PhysicsWorld resumed;
-    must(resumed.restore(snapshots[k]));
-    EXPECT_TRUE(resumed.save() == snapshots[k]);
-    for (std::size_t i = 20 * k + 7; i < kSteps; ++i) {
-      disturb(resumed, scene, static_cast<int>(i));
-      resumed.step(kDt);
-      ASSERT_EQ(resumed.state_hash(), after[i]) << "saved before " << 20 * k + 7 << ", at " << i;
-      ASSERT_TRUE(std::equal(seen[i].begin(), seen[i].end(), resumed.events().overlaps.begin(),
-                             resumed.events().overlaps.end()));
-    }
-  }
+  expect_same_after_restore(kRun,
+                            [](int step, bool disturbed) { return !disturbed && step % 20 == 7; });
 }
 
-TEST(ContactDataReplay, RecordedInputsReplayIntoAnEmptyWorld) {
-  InputRecorder recorder;
-  PhysicsWorld world;
-  world.attach(&recorder);
-  const Scene scene = build(world);
-  for (int i = 0; i < kSteps; ++i) {
-    disturb(world, scene, i);
-    world.step(kDt);
-  }
-  PhysicsWorld replay;
-  for (std::size_t i = 0; i < recorder.frames.size(); ++i) {
-    for (const InputRecord& input : recorder.frames[i].inputs)
-      ASSERT_TRUE(replay.apply_input(input).ok()) << name_of(input.kind) << " at step " << i;
-    replay.step(recorder.frames[i].dt);
-    ASSERT_EQ(replay.state_hash(), recorder.frames[i].hash) << "step " << i;
-  }
-  EXPECT_TRUE(replay.save() == world.save());
-}
+TEST(ContactDataReplay, RecordedInputsReplayIntoAnEmptyWorld) { expect_same_in_replay(kRun); }
 
 // Every column of the new tables damaged in turn: refused, never read outside, nothing changed.
 TEST(ContactDataReplay, DamagedColumnsAreRefused) {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "support/measure.h"
-#include "support/recorder.h"
+#include "support/replay_checks.h"
 #include "support/scenes.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -56,18 +56,9 @@ void disturb(PhysicsWorld& world, const Built& built, int step) {
       break;
   }
 }
-std::vector<std::uint64_t> hashes(JobSystem* jobs) {
-  PhysicsWorld world;
-  world.set_job_system(jobs);
-  const Built built = build_mixture(world);
-  std::vector<std::uint64_t> out;
-  for (int i = 0; i < kSteps; ++i) {
-    disturb(world, built, i);
-    world.step(kDt);
-    out.push_back(world.state_hash());
-  }
-  return out;
-}
+constexpr DisturbedRun<Built> kRun{build_mixture, disturb, kSteps, kDt};
+
+std::vector<std::uint64_t> hashes(JobSystem* jobs) { return hashes_of(kRun, jobs); }
 
 TEST(Determinism, RunToRun) {
   const std::vector<std::uint64_t> first = hashes(nullptr);
@@ -117,28 +108,9 @@ TEST(Determinism, ChangingTheNumberOfThreadsMidway) {
 }
 
 TEST(Determinism, SaveAndRestoreInTheMiddle) {
-  PhysicsWorld original;
-  const Built built = build_mixture(original);
-  std::vector<Snapshot> snapshots;
-  std::vector<std::uint64_t> after;
-  const int at_steps[] = {0, 1, 30, 60, 90};
-  for (int i = 0; i < kSteps; ++i) {
-    if (std::find(std::begin(at_steps), std::end(at_steps), i) != std::end(at_steps))
-      snapshots.push_back(original.save());
-    disturb(original, built, i);
-    original.step(kDt);
-    after.push_back(original.state_hash());
-  }
-  for (std::size_t k = 0; k < snapshots.size(); ++k) {
-    PhysicsWorld resumed;
-    must(resumed.restore(snapshots[k]));
-    for (int i = at_steps[k]; i < kSteps; ++i) {
-      disturb(resumed, built, i);
-      resumed.step(kDt);
-      ASSERT_EQ(resumed.state_hash(), after[static_cast<std::size_t>(i)])
-          << "saved before step " << at_steps[k] << ", at step " << i;
-    }
-  }
+  expect_same_after_restore(kRun, [](int step, bool disturbed) {
+    return !disturbed && (step == 0 || step == 1 || step == 30 || step == 60 || step == 90);
+  });
 }
 
 TEST(Determinism, ASnapshotRoundTripsExactly) {
@@ -226,13 +198,8 @@ TEST(Determinism, RecordedInputsReplayIntoAnEmptyWorld) {
   EXPECT_GT(recorder.frames[0].inputs.size(), 250u);  // the building of the scene
 
   PhysicsWorld replay;
-  for (std::size_t i = 0; i < recorder.frames.size(); ++i) {
-    const InputRecorder::Frame& frame = recorder.frames[i];
-    for (const InputRecord& input : frame.inputs)
-      ASSERT_TRUE(replay.apply_input(input).ok()) << name_of(input.kind) << " at step " << i;
-    replay.step(frame.dt);
-    ASSERT_EQ(replay.state_hash(), frame.hash) << "step " << i;
-  }
+  std::set<InputKind> kinds;
+  ASSERT_NO_FATAL_FAILURE(replay_into(replay, recorder, kinds));
 }
 
 TEST(Determinism, ReplayedInputsAreThemselvesRecorded) {

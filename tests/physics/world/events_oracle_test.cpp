@@ -43,17 +43,7 @@ TEST(Events, SensorsHoldExactlyWhatOverlapsThem) {
   };
   std::vector<Part> parts;
   const auto some_shape = [&](double size) -> Shape {
-    const auto side = [&] { return static_cast<Real>(size * random.uniform(0.3, 1)); };
-    switch (random.below(4)) {
-      case 0:
-        return Sphere{side()};
-      case 1:
-        return Capsule{side(), side()};
-      case 2:
-        return Box{Vec3(side(), side(), side())};
-      default:
-        return ConvexHull{oracle::random_hull(random, 8, size)};
-    }
+    return oracle::random_shape(random, random.below(4), size, 0.3);
   };
   for (int i = 0; i < 60; ++i) {
     const bool sensor = i % 2 == 0;

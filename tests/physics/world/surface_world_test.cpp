@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/collision_oracle.h"
+#include "support/fast_bodies.h"
 #include "support/measure.h"
 #include "support/surfaces.h"
 
@@ -20,38 +21,11 @@ double hills(double x, double z) { return std::sin(0.7 * x) * std::cos(0.6 * z);
 SurfaceMesh hill_mesh() { return {made(grid(-10, 10, -10, 10, 30, 30, hills))}; }
 
 TEST(SurfaceWorld, NothingFastPasses) {
-  const std::vector<std::pair<Shape, Vector3d>> walls = {
-      {SurfaceMesh{made(grid(-5, 5, -5, 5, 7, 7, level, true))}, {0, 0, 0}},
-      {Heightfield{field(11, 11, 1, [](int, int) { return 0.0; })}, {-5, 0, -5}}};
-  oracle::Random random(3);
-  for (const auto& [shape, origin] : walls) {
-    for (int trial = 0; trial < 60; ++trial) {
-      PhysicsWorld world(no_sleep());
-      add(world, body_at(at(origin, Quat::Identity()), MotionType::Static), with(shape));
-      const double speed = random.scale(5, 500);
-      const Vector3d slant(random.uniform(-0.5, 0.5), -1, random.uniform(-0.5, 0.5));
-      // From 2 m above such that the flight ends within the wall.
-      const Vector3d from = Vector3d(random.uniform(-1, 1), 0, random.uniform(-1, 1)) - 2 * slant;
-      const Shape body = trial % 3 == 0   ? Shape{sphere(0.05)}
-                         : trial % 3 == 1 ? Shape{capsule(0.1, 0.04)}
-                                          : Shape{box(0.1, 0.05, 0.07)};
-      RigidBody flying = moving(at(from, turn(random.uniform(0, 3), slant + Vector3d(1, 0, 0))),
-                                vec(speed * slant));
-      const BodyId id = add(world, flying, with(body, material(0.9)));
-      double lowest = 1;
-      run(world, 1, kDt, [&] {
-        const Vector3d p = position(world, id);
-        if (std::abs(p.x()) < 4.8 && std::abs(p.z()) < 4.8) lowest = std::min(lowest, p.y());
-      });
-      // The sweep follows the path of a body, not its turning: an impact that sets it spinning may
-      // press it in by up to half of its size, from where it comes back.
-      EXPECT_GT(lowest, -0.05) << "trial " << trial << " speed " << speed;
-      const Vector3d end = position(world, id);
-      if (std::abs(end.x()) < 4.8 && std::abs(end.z()) < 4.8) {
-        EXPECT_GT(end.y(), -0.005) << "trial " << trial << " speed " << speed;
-      }
-    }
-  }
+  expect_nothing_fast_passes(3, [](int trial) {
+    return trial % 3 == 0   ? Shape{sphere(0.05)}
+           : trial % 3 == 1 ? Shape{capsule(0.1, 0.04)}
+                            : Shape{box(0.1, 0.05, 0.07)};
+  });
 }
 
 // A ton on a kilogram: pressed into the ground, never through it.
