@@ -31,8 +31,40 @@ void mark_loaded_points(ContactRow<Real>& row) {
 
 namespace {
 
-struct RowContext {
+// [m] Radius of gyration about the axis that turns most easily.
+Real smallest_gyration(const BodyMass& m) {
+  const Real easiest =
+      m.mass * std::max({m.inverse_moments.x, m.inverse_moments.y, m.inverse_moments.z});
+  return easiest > Real(0) ? Real(1) / std::sqrt(easiest) : std::numeric_limits<Real>::max();
+}
+
+// What all rows of a body ask of it.
+struct RowBody {
+  Real gyration = std::numeric_limits<Real>::max();  // [m] the smallest radius
+  Real pull = 0;                                     // [m/s^2] of gravity and forces
+};
+
+// What rows ask of the world, looked up once.
+class RowContext {
+ public:
+  explicit RowContext(WorldState& w)
+      : world(w),
+        gravity(static_cast<Real>(w.settings.gravity.norm())),
+        bodies_(w.bodies.awake_end, &w.memory) {}
+  void note(std::uint32_t dense) {
+    const BodyMass& mass = world.bodies.mass[dense];
+    if (mass.mass > Real(0))
+      bodies_[dense] = {smallest_gyration(mass), length(world.substep[dense].acceleration)};
+  }
+  [[nodiscard]] RowBody body(std::uint32_t dense) const {
+    return dense < bodies_.size() ? bodies_[dense] : RowBody{};
+  }
+
   const WorldState& world;
+  const Real gravity;  // [m/s^2]
+
+ private:
+  StepList<RowBody> bodies_;  // per dense body that is awake
 };
 
 // x^T M y
@@ -78,8 +110,9 @@ void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real
 
 // A contact sinks by g/w^2 under its load: for no size to sink more than its share, w^2 must follow
 // g / thickness, as far as the substep allows [Catto 2024].
-Softness contact_softness(const WorldState& world, const ContactRow<Real>& row, Real thickness) {
-  const Real pull = static_cast<Real>(world.settings.gravity.norm()) / thickness;
+Softness contact_softness(const RowContext& context, const ContactRow<Real>& row, Real thickness) {
+  const WorldState& world = context.world;
+  const Real pull = context.gravity / thickness;
   const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
   const Real stiffest = tolerance::kStiffestContact / world.h;
   Real frequency = std::min(world.settings.contact_frequency * stiffer, stiffest);
@@ -169,13 +202,6 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                         inverse_rotate(collider.in_body.q, normal));
 }
 
-// [m] Radius of gyration about the axis that turns most easily.
-Real smallest_gyration(const BodyMass& m) {
-  const Real easiest =
-      m.mass * std::max({m.inverse_moments.x, m.inverse_moments.y, m.inverse_moments.z});
-  return easiest > Real(0) ? Real(1) / std::sqrt(easiest) : std::numeric_limits<Real>::max();
-}
-
 // Turns the contact's axes so that t1 lies along the grain. A grain that stands on the contact
 // plane leaves friction round.
 void align_with_grain(const WorldState& world, const Pair& pair, ContactRow<Real>& row) {
@@ -226,8 +252,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const bool b_moves = bodies.mass[row.body_b].mass > Real(0);
   row.both_dynamic = a_moves && b_moves;
   row.common_point = row.both_dynamic ? Real(0.5) : Real(0);
-  row.arm_room = tolerance::kArmRoom * std::min(smallest_gyration(bodies.mass[row.body_a]),
-                                                smallest_gyration(bodies.mass[row.body_b]));
+  const RowBody of_a = context.body(row.body_a), of_b = context.body(row.body_b);
+  row.arm_room = tolerance::kArmRoom * std::min(of_a.gyration, of_b.gyration);
   Real gap = 0;  // between the surfaces, when the manifold was made
   for (int i = 0; i < row.count; ++i)
     gap += contact.manifold.points[i].separation - contact.advanced_gap;
@@ -260,7 +286,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.friction = pair.friction;
   row.restitution = pair.restitution;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
-  const Softness softness = contact_softness(world, row, thickness);
+  const Softness softness = contact_softness(context, row, thickness);
   row.bias_rate = softness.bias_rate;
   row.mass_scale = softness.mass_scale;
   row.impulse_scale = softness.impulse_scale;
@@ -272,16 +298,17 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.at_rest = contact.at_rest || deepest > pair.slop;
 
   // As the step begins: how fast do the surfaces approach, and what does a substep add to that?
-  const BodyVelocity& va = bodies.velocity[row.body_a];
-  const BodyVelocity& vb = bodies.velocity[row.body_b];
-  for (int i = 0; i < row.count; ++i) {
-    const Vec place = row.points[i].a * row.t1 + row.points[i].b * row.t2;
-    const Vec v = vb.v + cross(vb.w, row.arm_b + place) - va.v - cross(va.w, row.arm_a + place);
-    row.approach_speed = std::max(row.approach_speed, -dot(row.n, v));
+  // Asked by bounces and by what meets in this step.
+  if (row.restitution > Real(0) || !pair.was_touching) {
+    const BodyVelocity& va = bodies.velocity[row.body_a];
+    const BodyVelocity& vb = bodies.velocity[row.body_b];
+    for (int i = 0; i < row.count; ++i) {
+      const Vec place = row.points[i].a * row.t1 + row.points[i].b * row.t2;
+      const Vec v = vb.v + cross(vb.w, row.arm_b + place) - va.v - cross(va.w, row.arm_a + place);
+      row.approach_speed = std::max(row.approach_speed, -dot(row.n, v));
+    }
   }
-  const Vec a_a = a_moves ? world.substep[row.body_a].acceleration : Vec{0, 0, 0};
-  const Vec a_b = b_moves ? world.substep[row.body_b].acceleration : Vec{0, 0, 0};
-  row.cut_unit = std::max(length(a_a), length(a_b)) * world.h;
+  row.cut_unit = std::max(of_a.pull, of_b.pull) * world.h;
   const auto& collider_a = world.colliders.info[pair.collider_a()];
   const auto& collider_b = world.colliders.info[pair.collider_b()];
   if (row.restitution > Real(0) && collider_a.shape.type == ShapeType::Sphere &&
@@ -295,11 +322,9 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   // Bodies that do not move in this step are all the world itself, dense 0.
   if (row.body_a >= bodies.awake_end) row.body_a = 0;
   if (row.body_b >= bodies.awake_end) row.body_b = 0;
-  const auto weight = [&](std::uint32_t i) {
-    return world.bodies.mass[i].mass * length(world.substep[i].acceleration);
-  };
   row.negligible =
-      tolerance::kLoadedFraction * world.h * std::max(weight(row.body_a), weight(row.body_b));
+      tolerance::kLoadedFraction * world.h *
+      std::max(bodies.mass[row.body_a].mass * of_a.pull, bodies.mass[row.body_b].mass * of_b.pull);
   mark_loaded_points(row);
 }
 
@@ -322,7 +347,7 @@ void build_turning_rows(WorldState& world) {
 
 void build_rows(WorldState& world) {
   const std::uint32_t count = static_cast<std::uint32_t>(world.row_order.size());
-  const RowContext context{world};
+  RowContext context(world);
   BodyStore& bodies = world.bodies;
   world.delta.resize(bodies.dense_count());
   world.substep.resize(bodies.dense_count());
@@ -348,6 +373,7 @@ void build_rows(WorldState& world) {
                      s.I = world_inertia(m, bodies.pose[i].q);
                      s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
                    }
+                   context.note(i);
                  }
                });
   for (const Contact& contact : world.contacts) {

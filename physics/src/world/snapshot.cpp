@@ -125,6 +125,7 @@ void visit_contact(Table& t, Contact& c) {
   t("part", c.part);
   t("flags", c.at_rest);
   t("normal", m.normal.x, m.normal.y, m.normal.z);
+  t("radii", c.radius_a, c.radius_b);
   t("advance", c.advance.x, c.advance.y, c.advance.z, c.advanced_gap);
   t("points", m.count);
   static constexpr const char* kNames[4][5] = {
