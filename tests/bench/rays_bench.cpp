@@ -166,8 +166,10 @@ b3Vec3 box3d(const Eigen::Vector3d& v) {
 void rays_box3d(benchmark::State& state) {
   b3WorldDef definition = b3DefaultWorldDef();
   const b3WorldId world = b3CreateWorld(&definition);
+  int i = 0;
   for (const Placing& p : placings()) {
     b3BodyDef body = b3DefaultBodyDef();
+    body.type = i++ % 2 == 0 ? b3_staticBody : b3_dynamicBody;
     const Eigen::Quaterniond q = p.turn.cast<double>();
     body.position = box3d(p.position);
     body.rotation = {box3d(Eigen::Vector3d(q.vec())), static_cast<float>(q.w())};
