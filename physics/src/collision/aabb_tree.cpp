@@ -55,9 +55,11 @@ bool RayQuery::clip(int axis, PosReal lower, PosReal upper, PosReal& entry, PosR
 bool RayQuery::meets(const WorldAabb& box, PosReal max_fraction, PosReal& entry) const {
   entry = PosReal(0);
   PosReal exit = max_fraction * kSlack;
-  return clip(0, box.lower.x, box.upper.x, entry, exit) &&
-         clip(1, box.lower.y, box.upper.y, entry, exit) &&
-         clip(2, box.lower.z, box.upper.z, entry, exit);
+  // All three in any case: which axis parts a ray from a box cannot be foretold.
+  const bool x = clip(0, box.lower.x, box.upper.x, entry, exit);
+  const bool y = clip(1, box.lower.y, box.upper.y, entry, exit);
+  const bool z = clip(2, box.lower.z, box.upper.z, entry, exit);
+  return x & y & z;
 }
 
 std::int32_t AabbTree::insert(const WorldAabb& box, std::uint32_t item) {
