@@ -139,7 +139,8 @@ std::vector<double> peer_steps(const CaseInfo& info, const KnobChoice& choice) {
   if (!choice.dt.empty()) return choice.dt;
   if (!choice.empty()) return {Knobs{}.dt};
   std::vector<double> out;
-  for (const Knobs& knobs : series_of(info, choice).front().settings) out.push_back(knobs.dt);
+  const std::vector<Series> series = series_of(info, choice);
+  for (const Knobs& knobs : series.front().settings) out.push_back(knobs.dt);
   return out;
 }
 
@@ -166,7 +167,7 @@ std::string add_peers(const std::string& program, CaseResult& result,
                       const std::function<void(std::size_t)>& progress,
                       std::vector<std::string>& notes) {
   if (steps.empty()) {
-    notes.push_back(result.info->name + ": not built in other engines");
+    notes.push_back(result.info->name + ": other engines are not put through it");
     return {};
   }
   std::string list;
@@ -193,6 +194,12 @@ std::string label_of(const PeerCurve& curve) {
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   if (name == "Box3d") name = "Box3D";
   return name + " " + curve.settings;
+}
+
+std::string short_label_of(const PeerCurve& curve) {
+  const std::string label = label_of(curve);
+  const std::size_t comma = label.find(',');
+  return label.substr(0, comma == std::string::npos ? comma : label.find(',', comma + 1));
 }
 
 }  // namespace plumb::accuracy

@@ -47,7 +47,9 @@ std::string add_peers(const std::string& program, CaseResult& result,
 std::string add_peer_line(const std::string& line, CaseResult& result,
                           std::vector<std::string>& notes);
 
-// How the engine is called in charts and tables: "Bullet 3.24, f32, 10 iterations".
+// How the engine is called in tables, "Bullet 3.24, f32, 10 iterations", and in charts,
+// "Bullet 3.24, f32".
 std::string label_of(const PeerCurve& curve);
+std::string short_label_of(const PeerCurve& curve);
 
 }  // namespace plumb::accuracy

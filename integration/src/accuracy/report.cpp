@@ -61,7 +61,7 @@ std::string published_of(const CaseResult& result) {
 
 std::string table_row(const std::string& mark, const std::string& label, double dt,
                       const std::string& substeps, double error, double cost) {
-  return "  " + padded(mark, 2) + padded(label, 38) + padded(step_words(dt), 8) +
+  return "  " + padded(mark, 2) + padded(label, 46) + padded(step_words(dt), 8) +
          padded(substeps, 10) +
          padded(std::isfinite(error) ? number(error, "%.2e") : "not finite", 22, true) +
          padded(number(1e6 * cost), 12, true) + "\n";
@@ -93,7 +93,7 @@ std::string table_of(const CaseResult& result) {
   if (!info.exact)
     out += "    against double at 1/3840 s, which differs from 1/1920 s by " +
            number(result.reference_spread, "%.1e") + " " + info.unit + "\n";
-  out += "    " + padded("series", 38) + padded("step", 8) + padded("substeps", 10) +
+  out += "    " + padded("series", 46) + padded("step", 8) + padded("substeps", 10) +
          padded("error [" + info.unit + "]", 22, true) + padded("us/body-s", 12, true) + "\n";
   for (const CellResult& cell : result.cells)
     out += table_row(cell.pareto ? "* " : "", result.series[cell.series].label, cell.knobs.dt,

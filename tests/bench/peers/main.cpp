@@ -54,6 +54,9 @@ int measure(const Options& options) {
     for (const EngineKind& kind : anchors::engine_kinds()) known = known || kind.name == name;
     if (!known) return refuse("there is no engine '" + name + "'; --list names them");
   }
+  if (std::none_of(anchors::engine_kinds().begin(), anchors::engine_kinds().end(),
+                   [&](const EngineKind& kind) { return wanted(options, kind); }))
+    return refuse("no other engine was found when this was built");
   if (options.cases.empty())
     for (const accuracy::Setup& setup : accuracy::setups()) cases.push_back(&setup);
   std::fputs(header_row().c_str(), stdout);
