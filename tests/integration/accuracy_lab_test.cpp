@@ -150,8 +150,8 @@ struct Ran {
   int code;
   std::string text;  // both streams
 };
-Ran accuracy(const std::string& arguments) {
-  const std::string command = std::string(PLUMB_PROGRAM) + " accuracy " + arguments + " 2>&1";
+Ran ran_by_shell(const std::string& words) {
+  const std::string command = words + " 2>&1";
   Ran ran{-1, ""};
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return ran;
@@ -160,6 +160,9 @@ Ran accuracy(const std::string& arguments) {
   const int status = pclose(pipe);
   if (WIFEXITED(status)) ran.code = WEXITSTATUS(status);
   return ran;
+}
+Ran accuracy(const std::string& arguments) {
+  return ran_by_shell(std::string(PLUMB_PROGRAM) + " accuracy " + arguments);
 }
 class AccuracyProgram : public ::testing::Test {
  protected:
@@ -188,6 +191,20 @@ TEST_F(AccuracyProgram, RefusesBadInputWithOneLine) {
     EXPECT_EQ(std::count(ran.text.begin(), ran.text.end(), '\n'), 1) << ran.text;
     EXPECT_EQ(ran.text.rfind("plumb: accuracy: ", 0), 0u) << ran.text;
   }
+}
+
+// A copy of the lab's program has no plumb-peers beside it, whatever this build has.
+TEST_F(AccuracyProgram, SaysWhereTheOtherEnginesAreNotThere) {
+  fs::create_directories(folder_);
+  const fs::path lab = folder_ / "plumb-accuracy", out = folder_ / "out";
+  fs::copy_file(fs::path(PLUMB_PROGRAM).parent_path() / "plumb-accuracy", lab);
+  const Ran ran = ran_by_shell(lab.string() + " I4 --dt 1/60 --peers -o " + out.string());
+  EXPECT_EQ(ran.code, 2) << ran.text;
+  EXPECT_EQ(std::count(ran.text.begin(), ran.text.end(), '\n'), 1) << ran.text;
+  EXPECT_NE(ran.text.find("PLUMB_PEERS=ON"), std::string::npos) << ran.text;
+  EXPECT_FALSE(fs::exists(out / "cells.csv"));
+  const Ran asked = ran_by_shell(lab.string() + " I4 --peers --error 1e-3");
+  EXPECT_EQ(asked.code, 2) << asked.text;
 }
 
 TEST_F(AccuracyProgram, AnswersBothQuestions) {

@@ -54,8 +54,8 @@ bool is_standard_header(const std::string& name) {
 }
 
 bool is_posix_header(const std::string& name) {
-  static const std::set<std::string> headers = {"dlfcn.h",   "fcntl.h", "poll.h",  "pthread.h",
-                                                "termios.h", "time.h",  "unistd.h"};
+  static const std::set<std::string> headers = {"dlfcn.h", "fcntl.h",   "poll.h", "pthread.h",
+                                                "spawn.h", "termios.h", "time.h", "unistd.h"};
   return name.starts_with("sys/") || headers.count(name) != 0;
 }
 

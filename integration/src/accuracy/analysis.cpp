@@ -19,18 +19,16 @@ void mark_pareto(std::vector<CellResult>& cells) {
 // Points that count: error at least 10 times the smallest of the series or of the reference
 // (round-off has no order), at most a third of the size of the motion (beyond it errors saturate),
 // and from there on to shorter steps only.
-OrderFit fit_order(const CaseResult& result, std::size_t series) {
-  OrderFit fit{series, 0, 0, false};
+OrderFit fit_order(const CaseResult& result, const std::vector<CurvePoint>& points) {
+  OrderFit fit;
   double least = 1e300;
-  for (const CellResult& cell : result.cells)
-    if (cell.series == series) least = std::min(least, cell.error);
+  for (const CurvePoint& point : points) least = std::min(least, point.error);
   const double floor =
       std::max({10 * least * 1e-3, 10 * result.reference_spread, 1e-11 * result.info->scale});
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  for (const CellResult& cell : result.cells) {
-    if (cell.series != series || !(cell.error > floor) || cell.error > result.info->scale / 3)
-      continue;
-    const double a = std::log(cell.knobs.dt), b = std::log(cell.error);
+  for (const CurvePoint& point : points) {
+    if (!(point.error > floor) || point.error > result.info->scale / 3) continue;
+    const double a = std::log(point.dt), b = std::log(point.error);
     n += 1;
     x += a;
     y += b;
@@ -43,6 +41,15 @@ OrderFit fit_order(const CaseResult& result, std::size_t series) {
   const double sxx = n * xx - x * x, sxy = n * xy - x * y, syy = n * yy - y * y;
   fit.order = sxy / sxx;
   fit.found = sxy > 0 && sxy * sxy >= 0.9 * sxx * syy;
+  return fit;
+}
+
+OrderFit fit_order(const CaseResult& result, std::size_t series) {
+  std::vector<CurvePoint> points;
+  for (const CellResult& cell : result.cells)
+    if (cell.series == series) points.push_back({cell.knobs.dt, cell.error, cell.cost});
+  OrderFit fit = fit_order(result, points);
+  fit.series = series;
   return fit;
 }
 

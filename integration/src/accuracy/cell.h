@@ -63,6 +63,5 @@ const CellCode* cells_of(Precision precision);
 // How methods are called on the command line and in reports, in the order of RotationMethod.
 const std::vector<std::string>& rotation_names();
 const std::vector<std::string>& solver_names();  // likewise of ContactSolver
-const std::vector<std::string>& solver_names();  // likewise of ContactSolver
 
 }  // namespace plumb::accuracy

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "accuracy/peers.h"
 #include "accuracy/report.h"
 
 namespace plumb::accuracy {
@@ -11,11 +12,22 @@ namespace {
 // Errors of zero have no logarithm: they stand at the foot of the chart.
 constexpr double kFoot = 1e-17;
 
-std::string point(const CellResult& cell) {
+std::string point(double cost, double error) {
   char text[80];
-  std::snprintf(text, sizeof text, "%.6g %.6g\n", 1e6 * cell.cost, std::max(kFoot, cell.error));
+  std::snprintf(text, sizeof text, "%.6g %.6g\n", 1e6 * cost, std::max(kFoot, error));
   return text;
 }
+std::string point(const CellResult& cell) { return point(cell.cost, cell.error); }
+
+std::string with_order(const std::string& label, const OrderFit& fit) {
+  if (!fit.found) return label;
+  char text[32];
+  std::snprintf(text, sizeof text, "  (order %.1f)", fit.order);
+  return label + text;
+}
+
+// Line styles of other engines stand after our own.
+constexpr int kFirstPeerStyle = 101;
 
 std::string panel(const CaseResult& result) {
   const CaseInfo& info = *result.info;
@@ -26,6 +38,7 @@ std::string panel(const CaseResult& result) {
     data += "$" + name + " << EOD\n" + points + "EOD\n";
     plots += (plots.empty() ? "plot " : ", \\\n     ") + ("$" + name) + " using 1:2 " + look;
   };
+  const std::string whose = result.peers.empty() ? "" : "Plumb: ";  // needs telling only then
   // The front first, wide and pale, so that the curves lie on it.
   std::vector<const CellResult*> front;
   for (const CellResult& cell : result.cells)
@@ -33,20 +46,25 @@ std::string panel(const CaseResult& result) {
   std::sort(front.begin(), front.end(), [](auto* a, auto* b) { return a->cost < b->cost; });
   std::string points;
   for (const CellResult* cell : front) points += point(*cell);
-  add("front", points, "with steps lw 7 lc rgb '#d8d8d8' title 'Pareto front'");
+  add("front", points, "with steps lw 7 lc rgb '#d8d8d8' title '" + whose + "Pareto front'");
   for (std::size_t s = 0; s < result.series.size(); ++s) {
     points.clear();
     for (const CellResult& cell : result.cells)
       if (cell.series == s && std::isfinite(cell.error)) points += point(cell);
-    std::string label = result.series[s].label;
-    for (const OrderFit& fit : result.fits) {
-      if (fit.series != s || !fit.found) continue;
-      char text[32];
-      std::snprintf(text, sizeof text, "  (order %.1f)", fit.order);
-      label += text;
-    }
+    std::string label = whose + result.series[s].label;
+    for (const OrderFit& fit : result.fits)
+      if (fit.series == s) label = with_order(label, fit);
     add("series" + std::to_string(s), points,
         "with linespoints ls " + std::to_string(s + 1) + " title '" + label + "'");
+  }
+  for (std::size_t i = 0; i < result.peers.size(); ++i) {
+    const PeerCurve& curve = result.peers[i];
+    points.clear();
+    for (const CurvePoint& p : curve.points)
+      if (std::isfinite(p.error)) points += point(p.cost, p.error);
+    add("peer" + std::to_string(i), points,
+        "with linespoints ls " + std::to_string(kFirstPeerStyle + static_cast<int>(i % 4)) +
+            " title '" + with_order(short_label_of(curve), curve.fit) + "'");
   }
   // What others have published, where the time is known too; on their machine, not on this one.
   for (std::size_t i = 0; i < info.published.size(); ++i) {
@@ -96,6 +114,16 @@ std::string chart_script(const std::vector<const CaseResult*>& results, Family f
               std::to_string(kShapes[(style - 1) % 5]) + " lc rgb '" + color + "'\n";
     ++style;
   }
+  // Others: thin, broken and dark, with open marks.
+  struct Look {
+    const char* color;
+    int mark;
+  };
+  constexpr Look kPeerLooks[] = {{"#222222", 6}, {"#8a4b12", 4}, {"#4d6b12", 8}, {"#777777", 10}};
+  style = kFirstPeerStyle;
+  for (const Look& look : kPeerLooks)
+    script += "set style line " + std::to_string(style++) + " lw 1.6 ps 1.3 dt 2 pt " +
+              std::to_string(look.mark) + " lc rgb '" + look.color + "'\n";
   script +=
       "set logscale xy 10\nset format x '10^{%L}'\nset format y '10^{%L}'\n"
       "set xlabel 'computing time [{/Symbol m}s per simulated second and body]'\n"

@@ -6,12 +6,6 @@
 namespace plumb::accuracy {
 namespace {
 
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(sum);
-}
-
 // The step of the reference: a 64th of 1/60 s, in double, with the engine's own choices.
 Knobs reference_knobs(double part) {
   Knobs knobs;
@@ -38,16 +32,22 @@ std::vector<double> right_readings(const CaseInfo& info, double& spread, std::st
   return fine.values;
 }
 
-constexpr double kWindow = 0.03, kQuickWindow = 0.006;  // [s] of a timed run
-
 }  // namespace
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+double timing_window(bool quick) { return quick ? 0.006 : 0.03; }
 
 CaseResult run_case(const CaseInfo& info, const std::vector<Series>& series,
                     const LabOptions& options, std::string& problem) {
   CaseResult result;
   result.info = &info;
   result.series = series;
-  const std::vector<double> right = right_readings(info, result.reference_spread, problem);
+  result.right = right_readings(info, result.reference_spread, problem);
   if (!problem.empty()) return result;
   for (std::size_t s = 0; s < series.size(); ++s) {
     for (const Knobs& knobs : series[s].settings) {
@@ -59,9 +59,9 @@ CaseResult run_case(const CaseInfo& info, const std::vector<Series>& series,
       }
       CellResult cell{s, knobs};
       const Readings readings = code->run(info.name, knobs);
-      cell.error = readings.finite ? distance(readings.values, right)
+      cell.error = readings.finite ? distance(readings.values, result.right)
                                    : std::numeric_limits<double>::infinity();
-      cell.cost = code->time(info.name, knobs, options.knobs.quick ? kQuickWindow : kWindow);
+      cell.cost = code->time(info.name, knobs, timing_window(options.knobs.quick));
       result.cells.push_back(cell);
       if (options.progress) options.progress(1);
     }

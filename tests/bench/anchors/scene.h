@@ -16,11 +16,13 @@ namespace plumb::anchors {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-enum class ShapeKind { None, Box, Sphere, Capsule, Hull, Mesh };
+// Plane: of the ground alone; solid below the body's xz plane, as far as `half` where an engine has
+// no planes and takes a box instead.
+enum class ShapeKind { None, Box, Sphere, Capsule, Hull, Mesh, Plane };
 
 struct Shape {
   ShapeKind kind = ShapeKind::None;
-  Vector3d half = Vector3d::Zero();  // [m] of a box
+  Vector3d half = Vector3d::Zero();  // [m] of a box or a plane
   double radius = 0;                 // [m] of a sphere or capsule
   double half_length = 0;            // [m] of a capsule's segment, along y
   std::size_t hull = 0;              // place in Scene::hulls

@@ -26,6 +26,14 @@ inline Body fixed_box(const Vector3d& half, const Vector3d& position) {
   return body;
 }
 
+// Solid below the plane through the origin with this normal.
+inline Body fixed_plane(const Vector3d& normal) {
+  Body body;
+  body.shape = {.kind = ShapeKind::Plane, .half = {100, 1, 100}};
+  body.orientation = Quaterniond::FromTwoVectors(Vector3d::UnitY(), normal);
+  return body;
+}
+
 inline Body sphere(double radius, const Vector3d& position, double density = 1000) {
   Body body;
   body.shape = {.kind = ShapeKind::Sphere, .radius = radius};

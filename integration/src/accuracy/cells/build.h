@@ -77,11 +77,6 @@ inline BodyId add_floor(PhysicsWorld& world, const Material& surface,
 }
 inline Box box(double hx, double hy, double hz) { return Box{vec({hx, hy, hz})}; }
 
-// The attitude as nine numbers whose distance is the angle between two, as long as it is small.
-inline void append_attitude(std::vector<double>& out, const Eigen::Quaterniond& q) {
-  const Eigen::Matrix3d R = q.normalized().toRotationMatrix() / std::numbers::sqrt2;
-  out.insert(out.end(), R.data(), R.data() + 9);
-}
 inline void append_place(std::vector<double>& out, const Eigen::Vector3d& p) {
   out.insert(out.end(), p.data(), p.data() + 3);
 }

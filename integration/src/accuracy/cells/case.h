@@ -1,6 +1,7 @@
 // One run of one case, in the number types of this build.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -40,13 +41,11 @@ struct Making {
 struct CaseMaker {
   const char* name;
   int copies;  // in timed runs
-  std::unique_ptr<Case> (*make)(const Making&);
+  std::function<std::unique_ptr<Case>(const Making&)> make;
 };
-std::vector<CaseMaker> free_cases();
-std::vector<CaseMaker> bouncing_cases();
-std::vector<CaseMaker> sliding_cases();
-std::vector<CaseMaker> jointed_cases();
+std::vector<CaseMaker> plain_cases();   // built from accuracy/setups
+std::vector<CaseMaker> forced_cases();  // a medium, a force of the user
+std::vector<CaseMaker> shot_cases();
 std::vector<CaseMaker> stacked_cases();
-std::vector<CaseMaker> published_cases();
 
 }  // namespace plumb::inline PLUMB_ABI::cells

@@ -25,8 +25,7 @@ namespace {
 const CaseMaker* find(std::string_view name) {
   static const std::vector<CaseMaker> all = [] {
     std::vector<CaseMaker> list;
-    for (const auto& part : {free_cases(), bouncing_cases(), sliding_cases(), jointed_cases(),
-                             stacked_cases(), published_cases()})
+    for (const auto& part : {plain_cases(), forced_cases(), shot_cases(), stacked_cases()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "accuracy/cells/build.h"
-#include "accuracy/cells/random.h"
+#include "accuracy/random.h"
 
 namespace plumb::inline PLUMB_ABI::cells {
 namespace {
@@ -70,7 +70,7 @@ class Pile : public Case {
     seconds = 4;
     const Material surface = material(0.5, 0.1);
     add_floor(world, surface);
-    Random random(making.seed);
+    accuracy::Random random(making.seed);
     for (int i = 0; i < kCount; ++i) {
       const Vector3d p(0.9 * (i % 3) + random.uniform(-0.05, 0.05), 0.6 + 1.1 * (i / 3),
                        0.4 * (i % 2) + random.uniform(-0.05, 0.05));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "accuracy/chaos.h"
+#include "accuracy/peers.h"
 #include "accuracy/report.h"
 #include "accuracy/settings_table.h"
 #include "cli/commands.h"
@@ -26,7 +27,7 @@ struct AccuracyOptions {
   std::vector<std::string> dt, substeps, rotation, solver, joint_order, precision, warm_start,
       continuous;
   std::string output, error, budget, table;
-  bool list = false, quick = false, no_charts = false, quiet = false;
+  bool list = false, quick = false, no_charts = false, quiet = false, peers = false;
 };
 
 constexpr std::size_t kMostCells = 100'000;
@@ -245,6 +246,12 @@ int measure_accuracy(const AccuracyOptions& options) {
     wrong = "that is " + std::to_string(total) + " cells; at most " + std::to_string(kMostCells) +
             " are run at once";
   const bool asked = questions.error || questions.budget;
+  const std::string peers = options.peers ? peers_program() : "";
+  if (wrong.empty() && options.peers)
+    wrong = asked ? "--peers: --error and --budget ask for settings of ours; leave one out"
+                  : missing(peers);
+  if (options.peers)
+    for (const CaseInfo* info : cases) total += kMostPeers * peer_steps(*info, knobs).size();
   const std::string folder =
       options.output.empty() && !asked ? std::string(kDefaultFolder) : options.output;
   if (wrong.empty() && !folder.empty()) wrong = make_folder(folder);
@@ -255,6 +262,7 @@ int measure_accuracy(const AccuracyOptions& options) {
 
   std::vector<CaseResult> results;
   std::vector<ChaosResult> chaos;
+  std::vector<std::string> notes;  // what other engines left out
   {
     auto bar = std::make_unique<ProgressBar>(total, !options.quiet);
     std::size_t done = 0;
@@ -265,6 +273,9 @@ int measure_accuracy(const AccuracyOptions& options) {
         if (!asked) chaos.push_back(run_chaos(*info, knobs, progress, wrong));
       } else {
         results.push_back(run_case(*info, series_of(*info, knobs), lab, wrong));
+        if (options.peers && wrong.empty())
+          wrong = add_peers(peers, results.back(), peer_steps(*info, knobs), knobs.quick, progress,
+                            notes);
       }
       if (!wrong.empty()) {
         bar.reset();
@@ -279,6 +290,8 @@ int measure_accuracy(const AccuracyOptions& options) {
   }
   for (const ChaosResult& result : chaos)
     if (!options.quiet) std::fputs(table_of(result).c_str(), stdout);
+  for (const std::string& note : notes)
+    if (!options.quiet) std::printf("left out: %s\n", note.c_str());
   if (asked && results.empty())
     complain("accuracy: a chaotic case has no error to ask for; run it without the question");
   if (folder.empty()) return kOk;
@@ -299,6 +312,8 @@ void add_options(CLI::App& app, AccuracyOptions& options) {
                  "second, such as 200us");
   app.add_option("-o,--output", options.output,
                  "Folder for cells.csv and the charts (plumb-accuracy)");
+  app.add_flag("--peers", options.peers,
+               "Other engines beside ours, by the program plumb-peers (-DPLUMB_PEERS=ON)");
   app.add_flag("--no-charts", options.no_charts, "CSV only");
   const auto list = [&](const char* name, std::vector<std::string>& words, const char* help) {
     app.add_option(name, words, help)->delimiter(',');

@@ -93,6 +93,12 @@ class Box3D : public Engine {
         b3CreateHullShape(made, &shape, &box.base);
         break;
       }
+      case ShapeKind::Plane: {  // it has none
+        const b3Vec3 h = vec(body.shape.half);
+        const b3BoxHull box = b3MakeOffsetBoxHull(h.x, h.y, h.z, {0, -h.y, 0});
+        b3CreateHullShape(made, &shape, &box.base);
+        break;
+      }
       case ShapeKind::Sphere: {
         const b3Sphere sphere{{0, 0, 0}, radius};
         b3CreateSphereShape(made, &shape, &sphere);

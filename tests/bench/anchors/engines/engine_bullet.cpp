@@ -76,6 +76,9 @@ class Bullet : public Engine {
         made = std::make_unique<btBvhTriangleMeshShape>(&triangles_, true);
         break;
       }
+      case ShapeKind::Plane:
+        made = std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), num(0));
+        break;
       case ShapeKind::None:
         made = std::make_unique<btEmptyShape>();
         break;
@@ -97,8 +100,8 @@ class Bullet : public Engine {
     btRigidBody::btRigidBodyConstructionInfo info(num(body.mass), nullptr, shape,
                                                   vec(body.inertia));
     info.m_startWorldTransform = btTransform(quat(body.orientation), vec(body.position));
-    info.m_friction = num(std::sqrt(scene.friction));  // Bullet multiplies the two
-    info.m_restitution = num(scene.restitution);       // likewise: 0 or 1 here
+    info.m_friction = num(std::sqrt(scene.friction));        // Bullet multiplies the two
+    info.m_restitution = num(std::sqrt(scene.restitution));  // likewise
     auto made = std::make_unique<btRigidBody>(info);
     made->setLinearVelocity(vec(body.velocity));
     made->setAngularVelocity(vec(body.spin));

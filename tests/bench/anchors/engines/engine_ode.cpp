@@ -24,7 +24,7 @@ class Ode : public Engine {
     dWorldSetGravity(world_, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
     dWorldSetAutoDisableFlag(world_, scene.sleeping ? 1 : 0);
     dWorldSetQuickStepNumIterations(world_, 20);
-    for (const Body& body : scene.ground) place(shape_of(scene, body.shape), body);
+    for (const Body& body : scene.ground) add_ground(scene, body);
     for (const Body& body : scene.bodies) add(scene, body);
     for (const BallJoint& joint : scene.joints) {
       const dJointID made = dJointCreateBall(world_, nullptr);
@@ -96,10 +96,16 @@ class Ode : public Engine {
         return dCreateTriMesh(space_, mesh_, nullptr, nullptr, nullptr);
       }
       case ShapeKind::Hull:
+      case ShapeKind::Plane:
       case ShapeKind::None:
         break;
     }
     return nullptr;
+  }
+  void add_ground(const Scene& scene, const Body& body) {
+    if (body.shape.kind != ShapeKind::Plane) return place(shape_of(scene, body.shape), body);
+    const Vector3d n = body.orientation * Vector3d::UnitY();  // a plane has no place of its own
+    if (scene.collide) dCreatePlane(space_, n.x(), n.y(), n.z(), n.dot(body.position));
   }
   static void place(dGeomID shape, const Body& body) {
     if (shape == nullptr) return;

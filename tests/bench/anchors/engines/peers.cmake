@@ -3,10 +3,10 @@
 function(plumb_peer name)
   cmake_parse_arguments(arg "" "" "LIBRARIES;INCLUDES" ${ARGN})
   string(TOUPPER ${name} upper)
-  target_sources(plumb-anchors PRIVATE engines/engine_${name}.cpp)
-  target_compile_definitions(plumb-anchors PRIVATE PLUMB_ANCHORS_${upper})
-  target_include_directories(plumb-anchors SYSTEM PRIVATE ${arg_INCLUDES})
-  target_link_libraries(plumb-anchors PRIVATE ${arg_LIBRARIES})
+  target_sources(plumb_engines PRIVATE engines/engine_${name}.cpp)
+  target_compile_definitions(plumb_engines PRIVATE PLUMB_ANCHORS_${upper})
+  target_include_directories(plumb_engines SYSTEM PRIVATE ${arg_INCLUDES})
+  target_link_libraries(plumb_engines PRIVATE ${arg_LIBRARIES})
 endfunction()
 
 # --- Debian's Bullet, in single precision, and ODE, in double ------------------------------------
@@ -47,7 +47,7 @@ add_custom_command(
   COMMENT "Building Rapier with cargo (minutes at the first time)"
   USES_TERMINAL VERBATIM)
 add_custom_target(plumb_rapier_cargo DEPENDS "${library}")
-add_dependencies(plumb-anchors plumb_rapier_cargo)
+add_dependencies(plumb_engines plumb_rapier_cargo)
 plumb_peer(rapier LIBRARIES "${library}" Threads::Threads ${CMAKE_DL_LIBS})
 
 # The crate box3d-sys carries Box3D's C sources; cargo tells where it has put them.

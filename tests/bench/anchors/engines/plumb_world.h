@@ -50,6 +50,8 @@ inline plumb::Shape shape_of(const anchors::Shape& shape, const Geometries& geom
       return ConvexHull{geometries.hulls[shape.hull]};
     case ShapeKind::Mesh:
       return SurfaceMesh{geometries.mesh};
+    case ShapeKind::Plane:
+      return HalfSpace{Vec3::UnitY(), Real(0)};
     case ShapeKind::Box:
     case ShapeKind::None:
       break;

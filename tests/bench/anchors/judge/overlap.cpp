@@ -31,10 +31,12 @@ Placed place(const Scene& scene, const Shape& shape, const Vector3d& p, const Qu
       s.edges = {{0, 1}};
       s.radius = shape.radius;
       break;
+    case ShapeKind::Plane:  // as the box that stands for it
     case ShapeKind::Box:
       for (int i = 0; i < 8; ++i)
         corner(Vector3d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1)
-                   .cwiseProduct(shape.half));
+                   .cwiseProduct(shape.half) -
+               Vector3d(0, shape.kind == ShapeKind::Plane ? shape.half.y() : 0, 0));
       for (const auto& loop : {std::vector<int>{0, 4, 6, 2},
                                {1, 3, 7, 5},
                                {0, 1, 5, 4},

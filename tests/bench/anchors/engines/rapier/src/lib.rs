@@ -60,6 +60,7 @@ const SPHERE: i32 = 2;
 const CAPSULE: i32 = 3;
 const HULL: i32 = 4;
 const MESH: i32 = 5;
+const PLANE: i32 = 6;
 
 fn vector(v: &[f32]) -> Vector {
     Vector::new(v[0], v[1], v[2])
@@ -125,6 +126,7 @@ pub unsafe extern "C" fn plumb_rapier_new(scene: *const Scene, threads: usize) -
             BOX => Some(SharedShape::cuboid(body.half[0], body.half[1], body.half[2])),
             SPHERE => Some(SharedShape::ball(body.radius)),
             CAPSULE => Some(SharedShape::capsule_y(body.half_length, body.radius)),
+            PLANE => Some(SharedShape::halfspace(Vector::new(0.0, 1.0, 0.0))),
             HULL => Some(hulls[body.hull as usize].clone()),
             MESH => {
                 let vertices = unsafe { list(scene.vertices, 3 * scene.vertex_count) };

@@ -3,9 +3,7 @@
 
 #include <cstdint>
 
-#include "plumb/precision.h"
-
-namespace plumb::inline PLUMB_ABI::cells {
+namespace plumb::accuracy {
 
 class Random {
  public:
@@ -20,4 +18,4 @@ class Random {
   std::uint32_t state_;
 };
 
-}  // namespace plumb::inline PLUMB_ABI::cells
+}  // namespace plumb::accuracy

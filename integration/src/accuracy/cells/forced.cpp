@@ -1,4 +1,4 @@
-// Bodies that touch nothing: tumbling, spinning, falling through a linear medium.
+// Bodies that touch nothing, under a force: falling through a linear medium, in orbit.
 #include "accuracy/cells/build.h"
 
 namespace plumb::inline PLUMB_ABI::cells {
@@ -11,41 +11,6 @@ WorldSettings without_gravity(const Making& making) {
   settings.gravity = Vec3::Zero();
   return settings;
 }
-
-// Torque-free: the attitude after ten seconds.
-class Top : public Case {
- public:
-  Top(const Making& making, const Vector3d& moments, const Vector3d& spin)
-      : Case(without_gravity(making)) {
-    seconds = 10;
-    bodies = making.copies;
-    for (int i = 0; i < making.copies; ++i) {
-      RigidBody body = body_at(at({10.0 * i, 0, 0}));
-      body.mass = mass_of(1, moments);
-      body.angular_velocity = vec(spin);
-      const BodyId id = must(world.create_body(body));
-      if (i == 0) body_ = id;
-    }
-  }
-  [[nodiscard]] std::vector<double> readings() const override {
-    std::vector<double> out;
-    append_attitude(out, wide(world.pose(body_).orientation));
-    return out;
-  }
-
- private:
-  BodyId body_;
-};
-
-struct TumblingTop : Top {  // F6
-  explicit TumblingTop(const Making& m) : Top(m, {1, 2, 3}, {0.1, 10, 0}) {}
-};
-struct SymmetricTop : Top {  // F7
-  explicit SymmetricTop(const Making& m) : Top(m, {1, 1, 1.8}, {0.3, 0, 4}) {}
-};
-struct Rod : Top {  // H7: thin, and not quite round
-  explicit Rod(const Making& m) : Top(m, {1, 190, 190.9}, {20, 20, 5}) {}
-};
 
 // F2: thrown through a medium with linear drag, tau = 2 s.
 class LinearDrag : public Case {
@@ -112,12 +77,8 @@ class Kepler : public Case {
 
 }  // namespace
 
-std::vector<CaseMaker> free_cases() {
-  return {{"F2", 64, make<LinearDrag>},
-          {"F5", 64, make<Kepler>},
-          {"F6", 64, make<TumblingTop>},
-          {"F7", 64, make<SymmetricTop>},
-          {"H7", 64, make<Rod>}};
+std::vector<CaseMaker> forced_cases() {
+  return {{"F2", 64, make<LinearDrag>}, {"F5", 64, make<Kepler>}};
 }
 
 }  // namespace plumb::inline PLUMB_ABI::cells
