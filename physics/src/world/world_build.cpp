@@ -180,7 +180,10 @@ void PhysicsWorld::set_job_system(JobSystem* jobs) { state_->jobs = jobs; }
 
 void PhysicsWorld::set_diagnostics(const StepDiagnostics& diagnostics) {
   state_->diagnostics = diagnostics;
-  if (diagnostics.error_every == 0) state_->twin.reset();
+  if (!diagnostics.ledger) state_->ledger = {};
+  if (diagnostics.error_every != 0) return;
+  state_->twin.reset();
+  state_->twin_image = {};
 }
 const StepDiagnostics& PhysicsWorld::diagnostics() const { return state_->diagnostics; }
 
