@@ -37,6 +37,20 @@ TEST_F(ProgramOutput, AListOfPricesThatCannotBeWrittenIsRefusedBeforeTheyAreMeas
   EXPECT_EQ(files(), 0u);
 }
 
+TEST_F(ProgramOutput, AChartThatCannotBeDrawnIsRefusedBeforeItIsMeasured) {
+  for (const std::string& bad :
+       {"--chart " + file("no/such/folder/chart.png"), "--chart " + file("chart.txt"),
+        "--chart \"\"", "--csv " + folder_.string()}) {
+    const Outcome outcome = plumb("effects --scaling " + bad);
+    EXPECT_EQ(outcome.code, 2) << outcome.output;
+    EXPECT_FALSE(says(outcome, "a step more")) << outcome.output;
+  }
+  const Outcome without = plumb("effects --chart " + file("chart.png"));
+  EXPECT_EQ(without.code, 2);
+  EXPECT_TRUE(says(without, "--scaling")) << without.output;
+  EXPECT_EQ(files(), 0u);
+}
+
 TEST_F(ProgramInput, AWordThatIsNoCommandIsNamedAndTheCommandsAre) {
   const Outcome fly = plumb("fly " + kScenes + "ball_drop.json");
   EXPECT_EQ(fly.code, 2);

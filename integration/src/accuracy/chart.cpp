@@ -85,12 +85,6 @@ std::string panel(const CaseResult& result) {
          info.unit + "]'\n" + plots + "\nundefine $*\n";
 }
 
-std::string in_quotes(const std::string& path) {  // for gnuplot: ' is doubled
-  std::string out = "'";
-  for (const char c : path) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out + "'";
-}
-
 }  // namespace
 
 std::string chart_script(const std::vector<const CaseResult*>& results, Family family,

@@ -1,4 +1,5 @@
-// Files that appear whole or not at all.
+#include "accuracy/files.h"
+
 #include <unistd.h>
 
 #include <cstdio>
@@ -6,8 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
-
-#include "accuracy/report.h"
 
 namespace plumb::accuracy {
 namespace fs = std::filesystem;
@@ -49,6 +48,12 @@ std::string write_whole(const std::string& path, const std::string& text) {
     }
   }
   return is_device ? std::string() : rename_to(part, path);
+}
+
+std::string in_quotes(const std::string& path) {  // ' is doubled
+  std::string out = "'";
+  for (const char c : path) out += c == '\'' ? std::string("''") : std::string(1, c);
+  return out + "'";
 }
 
 bool has_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }

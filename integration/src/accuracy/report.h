@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/files.h"
 #include "accuracy/lab.h"
 
 namespace plumb::accuracy {
@@ -21,12 +22,5 @@ std::string csv_of(const std::vector<CaseResult>& results, const Circumstances& 
 // microseconds a simulated body-second, a curve a series, the Pareto front marked.
 std::string chart_script(const std::vector<const CaseResult*>& results, Family family,
                          const std::string& terminal, const std::string& output);
-
-// Each returns an error text, empty if all is well. Files appear whole or not at all.
-std::string make_folder(const std::string& path);  // and finds out whether it can be written into
-std::string write_whole(const std::string& path, const std::string& text);
-bool has_gnuplot();
-std::string draw(const std::string& script,
-                 const std::string& path);  // `script` writes path + ".part"
 
 }  // namespace plumb::accuracy

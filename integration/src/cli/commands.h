@@ -44,6 +44,8 @@ int inspect_mesh(const MeshOptions& options);
 
 // The price list of effects; also as a table for programs, if `csv` names a file.
 int print_effect_prices(const std::string& csv);
+// What each costs against the number of bodies that carry it; `chart` names an .svg or .png.
+int print_effect_scaling(const std::string& csv, const std::string& chart);
 int print_plan(const std::string& scene);
 
 int replay_info(const std::string& recording);

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/effect_flight.h"
 #include "cli/output_path.h"
 #include "plumb/world.h"
 
@@ -29,72 +29,15 @@ struct Price {
   double nanoseconds = 0;  // a body and step
 };
 
-FieldForce no_force(const FieldSample&, void*) { return {}; }
-
-std::vector<Price> all_effects() {
-  PointGravity star;
-  star.mu = Real(1);
-  star.softening = Real(1);
-  Attractor pull;
-  pull.strength = Real(0.1);
-  Drag linear, quadratic, turning;
-  linear.linear = Real(0.1);
-  quadratic.quadratic = Real(0.1);
-  turning.angular_linear = Real(0.1);
-  Magnus magnus;
-  magnus.coefficient = Real(0.01);
-  Wind wind;
-  wind.velocity = Vec3(1, 0, 0);
-  AeroSurface wing;
-  wing.tensor = -Mat3::Identity();
-  wing.point = Vec3(0, Real(0.5), 0);
-  Buoyancy water;
-  water.level = Real(1e4);
-  Spring spring;
-  spring.rest_length = Real(1e3);
-  Thrust thrust;
-  thrust.force = Vec3(0, 1, 0);
-  Explosion blast;
-  blast.updraft = Real(1);
-  blast.updraft_duration = Real(1e6);
-  blast.chimney_radius = blast.chimney_height = Real(1e6);
-  return {{"point gravity", star},
-          {"force field (empty)", ForceField{}},
-          {"thrust", thrust},
-          {"explosion (updraft)", blast},
-          {"drag linear", linear},
-          {"drag quadratic", quadratic},
-          {"drag angular", turning},
-          {"magnus", magnus},
-          {"attractor", pull},
-          {"wind on a box", wind},
-          {"aero surface", wing},
-          {"buoyancy of a box", water},
-          {"spring to the world", spring}};
-}
-
 // Seconds a step; null: without effects.
 double step_time(const EffectKind* kind) {
   double best = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
-    WorldSettings settings;
-    settings.sleeping = false;
-    PhysicsWorld world(settings);
-    (void)world.set_force_field(0, no_force);
-    for (int i = 0; i < kBodies; ++i) {
-      RigidBody body;
-      body.pose.position = Pos3(PosReal(5 * (i % 32)), PosReal(5 * (i / 32)), 0);
-      body.linear_velocity = Vec3(1, Real(0.5), 0);
-      body.angular_velocity = Vec3(1, 2, 3);
-      const BodyId id = world.create_body(body).id;
-      Collider collider;
-      collider.shape = Box{Vec3(Real(0.5), Real(0.4), Real(0.3))};
-      (void)world.create_collider(id, collider);
-      if (kind != nullptr) (void)world.create_effect({id, *kind, 0});
-    }
-    for (int i = 0; i < 3; ++i) world.step(1.0 / 60);
+    EffectFlight flight(kind != nullptr ? *kind : EffectKind{}, kBodies,
+                        kind != nullptr ? kBodies : 0);
+    flight.step(3);
     const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < kSteps; ++i) world.step(1.0 / 60);
+    flight.step(kSteps);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     best = std::min(best, took.count() / kSteps);
   }
@@ -108,7 +51,8 @@ int print_effect_prices(const std::string& csv) {
     complain(wrong);
     return kBadInput;
   }
-  std::vector<Price> prices = all_effects();
+  std::vector<Price> prices;
+  for (const NamedEffect& effect : every_effect()) prices.push_back({effect.name, effect.kind});
   const double bare = step_time(nullptr);
   double dearest = 0;
   for (Price& price : prices) {

@@ -81,6 +81,25 @@ void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
   mesh->callback([&] { exit_code = inspect_mesh(options); });
 }
 
+struct EffectsOptions {
+  std::string csv, chart;
+  bool scaling = false;
+};
+
+void add_effects(CLI::App& app, EffectsOptions& options, int& exit_code) {
+  CLI::App* effects = app.add_subcommand("effects", "What each effect costs on this machine");
+  effects->add_option("--csv", options.csv, "Write the list to this file too")->check(not_empty());
+  CLI::Option* scaling = effects->add_flag(
+      "--scaling", options.scaling, "Against the number of bodies that have it: cost = a + b k");
+  effects->add_option("--chart", options.chart, "Draw it to this file, .svg or .png")
+      ->check(not_empty())
+      ->needs(scaling);
+  effects->callback([&] {
+    exit_code = options.scaling ? print_effect_scaling(options.csv, options.chart)
+                                : print_effect_prices(options.csv);
+  });
+}
+
 struct ReplayOptions {
   std::string file_a, file_b;
   int threads = 1;
@@ -138,10 +157,8 @@ int program(int argc, char** argv) {
   CLI::App* plan = app.add_subcommand("plan", "Which effects and stages a scene pays for, and why");
   plan->add_option("SCENE", plan_scene, "Scene file (JSON)")->required();
   plan->callback([&] { exit_code = print_plan(plan_scene); });
-  std::string prices_csv;
-  CLI::App* effects = app.add_subcommand("effects", "What each effect costs on this machine");
-  effects->add_option("--csv", prices_csv, "Write the list to this file too")->check(not_empty());
-  effects->callback([&] { exit_code = print_effect_prices(prices_csv); });
+  EffectsOptions effects;
+  add_effects(app, effects, exit_code);
   add_replay(app, replay, exit_code);
   std::vector<std::string> lab_arguments;
   add_accuracy(app, lab_arguments, exit_code);
