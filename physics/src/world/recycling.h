@@ -18,8 +18,8 @@ struct WorldState;
 // Notes from where the contacts of a pair, found just now with `margin` [m], may be kept.
 void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Contact> contacts);
 // Tells the last step's contacts of the pair as of now, where they lie, if they are what a search
-// with `margin` [m] would find, and returns true; else they are to be found anew. `reach` [m]: by which surfaces
-// may approach in this step.
+// with `margin` [m] would find, and returns true; else they are to be found anew. `reach` [m]: by
+// which surfaces may approach in this step.
 bool recycle(WorldState& world, const Pair& pair, Real margin, Real reach);
 
 }  // namespace plumb::inline PLUMB_ABI::detail
