@@ -40,7 +40,7 @@ TEST_F(ProgramOutput, AListOfPricesThatCannotBeWrittenIsRefusedBeforeTheyAreMeas
 TEST_F(ProgramOutput, AChartThatCannotBeDrawnIsRefusedBeforeItIsMeasured) {
   for (const std::string& bad :
        {"--chart " + file("no/such/folder/chart.png"), "--chart " + file("chart.txt"),
-        "--chart \"\"", "--csv " + folder_.string()}) {
+        std::string("--chart \"\""), "--csv " + folder_.string()}) {
     const Outcome outcome = plumb("effects --scaling " + bad);
     EXPECT_EQ(outcome.code, 2) << outcome.output;
     EXPECT_FALSE(says(outcome, "a step more")) << outcome.output;
