@@ -53,6 +53,7 @@ Real* numbers_of(ContactRow<Real>& row) {
 // Rows and lanes are the two readings of one table. It is turned in tiles of 4 x 4 numbers that fit
 // into registers: for four rows, numbers [begin, end) of each.
 constexpr std::size_t kTile = 4;
+constexpr std::uint32_t kAllOfTile = (1u << kTile) - 1u;  // bits of its lanes
 using TileRow = Lanes<Real, kTile>::Reals;
 
 template <class Read, class Write>
@@ -70,7 +71,7 @@ template <class Row, class Tiles, class One>
 void for_lanes(std::vector<Row>& rows, const BlockHead& head, std::size_t lanes, Tiles&& tiles,
                One&& one) {
   for (std::size_t first = 0; first < lanes; first += kTile) {
-    if ((head.lanes >> first & 15u) == 15u) {
+    if ((head.lanes >> first & kAllOfTile) == kAllOfTile) {
       Row* const four[kTile] = {&rows[head.row[first]], &rows[head.row[first + 1]],
                                 &rows[head.row[first + 2]], &rows[head.row[first + 3]]};
       tiles(first, four);
