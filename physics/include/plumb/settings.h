@@ -40,12 +40,14 @@ struct SettingsChoice;
 
 // How contacts and joints that touch something are solved.
 enum class ContactSolver : std::uint8_t {
-  SoftStep,  // fast: one soft pass and one relaxing pass a substep (src/solver); the default
+  SoftStep,  // fast: one soft pass and one relaxing pass a substep (src/solver)
   // Accurate: each island to the exact laws in every substep, whatever its masses and its height,
   // in double (src/solver/newton). Costs more where many contacts open and close.
   Newton,
-  // Newton for the islands that call for it, soft steps for the others: where heavy bodies lie on
-  // light ones or many on one another (world.plan() tells; physics/README.md has the map).
+  // The default: soft steps, and Newton for the islands that call for it: where heavy bodies lie on
+  // light ones or many on one another. Its cost is bounded; what is too large or takes too long
+  // goes on in soft steps (world.plan() tells; physics/README.md has the map). The bits are those
+  // of SoftStep where nothing calls.
   Auto,
 };
 
@@ -61,7 +63,7 @@ struct WorldSettings {
   Real contact_damping_ratio = Real(10);
 
   RotationMethod rotation = RotationMethod::Exact;
-  ContactSolver contact_solver = ContactSolver::SoftStep;
+  ContactSolver contact_solver = ContactSolver::Auto;
   // Order in the substep of what jointed bodies that touch nothing do [-], 2 or 4. 4: five times
   // the cost of their joints; with four substeps in double the error of a pendulum's period falls
   // from 2e-5 to 4e-8, with one from 4e-4 to 1e-7. What has motors, friction, dampers or limits

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "collision/rolling.h"
+#include "effects/effect_world.h"
 #include "math/symmetric_inverse.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
@@ -196,7 +197,7 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                      Vec outward) {
   const ColliderInfo& collider = world.colliders.info[slot];
   if (!is_curved(collider.shape.type)) return radius;
-  const Rotation& q_body = world.bodies.pose[world.bodies.info[collider.body].dense].q;
+  const Rotation& q_body = world.bodies.pose[world.bodies.dense_of[collider.body]].q;
   const Vec place = inverse_rotate(q_body, arm), normal = inverse_rotate(q_body, outward);
   return rolling_radius(collider.shape, inverse_transform_point(collider.in_body, place),
                         inverse_rotate(collider.in_body.q, normal));
@@ -214,7 +215,7 @@ void align_with_grain(const WorldState& world, const Pair& pair, ContactRow<Real
   };
   if (share(*other) < share(*grained)) grained = other;
   const Material& material = grained->component.material;
-  const Rotation& q_body = world.bodies.pose[world.bodies.info[grained->body].dense].q;
+  const Rotation& q_body = world.bodies.pose[world.bodies.dense_of[grained->body]].q;
   const Vec grain = rotate(q_body, rotate(grained->in_body.q, to_inner(material.grain)));
   const Vec flat = grain - dot(grain, row.n) * row.n;
   const Real size = length(flat);
@@ -229,12 +230,10 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const BodyStore& bodies = world.bodies;
   const Contact& contact = world.contacts[contact_index];
   const Pair& pair = world.pairs[contact.pair];
-  const BodyInfo& info_a = bodies.info[pair.body_a];
-  const BodyInfo& info_b = bodies.info[pair.body_b];
   row = {};
   row.contact = contact_index;
-  row.body_a = info_a.dense;
-  row.body_b = info_b.dense;
+  row.body_a = bodies.dense_of[pair.body_a];
+  row.body_b = bodies.dense_of[pair.body_b];
   row.count = contact.manifold.count;
   row.n = contact.manifold.normal;
   tangent_frame(row.n, row.t1, row.t2);
@@ -343,6 +342,29 @@ void build_turning_rows(WorldState& world) {
   }
 }
 
+void begin_body(WorldState& world, std::uint32_t i, bool held, bool needs_inertia,
+                RowContext& context) {
+  BodyStore& bodies = world.bodies;
+  world.delta[i] = {};
+  SubstepBody& s = world.substep[i];
+  s = {};
+  const BodyMass& m = bodies.mass[i];
+  s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
+  if (m.mass > Real(0)) {
+    const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
+    // A locked axis feels no gravity.
+    s.acceleration +=
+        Vec{m.inverse_mass.x > Real(0) ? g.x : Real(0), m.inverse_mass.y > Real(0) ? g.y : Real(0),
+            m.inverse_mass.z > Real(0) ? g.z : Real(0)};
+    s.constrained = held;
+    if (held || needs_inertia) {
+      s.I = world_inertia(m, bodies.pose[i].q);
+      s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
+    }
+  }
+  if (held) context.note(i);
+}
+
 }  // namespace
 
 void build_rows(WorldState& world) {
@@ -354,34 +376,26 @@ void build_rows(WorldState& world) {
   world.delta[0] = {};
   world.substep[0] = {};
   world.contacts_changed.assign(bodies.awake_end, 0);
-  // Bodies first: what a row reads of them, and which of them are held by a row.
+  // Bodies first: what a row reads of them, and which of them are held by a row. What nothing holds
+  // flies, and needs no inertia in world axes.
+  StepList<std::uint8_t> held(bodies.dense_count(), 0, &world.memory);
+  for (const Contact& contact : world.contacts) {
+    const Pair& pair = world.pairs[contact.pair];
+    held[bodies.dense_of[pair.body_a]] = held[bodies.dense_of[pair.body_b]] = 1;
+  }
+  const bool all_inertias = !world.joints.empty() || world.diagnostics.ledger ||
+                            (world.effects != nullptr && !world.effects->empty());
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;
-                      ++i) {
-                   world.delta[i] = {};
-                   SubstepBody& s = world.substep[i];
-                   s = {};
-                   const BodyMass& m = bodies.mass[i];
-                   s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
-                   if (m.mass > Real(0)) {
-                     const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
-                     // A locked axis feels no gravity.
-                     s.acceleration += Vec{m.inverse_mass.x > Real(0) ? g.x : Real(0),
-                                           m.inverse_mass.y > Real(0) ? g.y : Real(0),
-                                           m.inverse_mass.z > Real(0) ? g.z : Real(0)};
-                     s.I = world_inertia(m, bodies.pose[i].q);
-                     s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
-                   }
-                   context.note(i);
-                 }
+                      ++i)
+                   begin_body(world, i, held[i] != 0, all_inertias, context);
                });
   for (const Contact& contact : world.contacts) {
     const Pair& pair = world.pairs[contact.pair];
-    const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
-    if (bodies.mass[a].mass > Real(0)) world.substep[a].constrained = true;
-    if (bodies.mass[b].mass > Real(0)) world.substep[b].constrained = true;
-    if (pair.driven) world.substep[a].driven = world.substep[b].driven = true;
+    if (!pair.driven) continue;
+    world.substep[bodies.dense_of[pair.body_a]].driven = true;
+    world.substep[bodies.dense_of[pair.body_b]].driven = true;
   }
   if (!world.joints.empty()) build_joints(world);
   world.rows.resize(count);

@@ -160,6 +160,9 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
 }
 
 void store_impulses(WorldState& world) {
+  const newton::CallsOfRows calls(world);
+  StepList<newton::Call> called(calls.listens() ? world.rows.size() : 0, newton::Call::None,
+                                &world.memory);
   parallel_for(world, static_cast<std::uint32_t>(world.rows.size()), tolerance::kRowGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t k = begin; k < end; ++k) {
@@ -175,8 +178,10 @@ void store_impulses(WorldState& world) {
                      contact.step_friction_impulse[i] +=
                          point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
                    }
+                   if (!called.empty()) called[k] = calls.of(row);
                  }
                });
+  if (calls.listens()) newton::hear_calls(world, called.data());
 }
 
 bool flies(const SubstepBody& s, const BodyMass& mass) {

@@ -147,6 +147,7 @@ namespace {
 bool find_spun_bodies(WorldState& world) {
   const bool newton = world.newton != nullptr && world.newton->count > 0;
   bool any = false;
+  if (world.rows.empty()) return false;
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
     SubstepBody& s = world.substep[i];
     if (!s.constrained || s.split || s.turned || s.spun) continue;

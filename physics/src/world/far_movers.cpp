@@ -8,19 +8,6 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// Farthest point of a body from its centre that a turn carries along: a ball about the centre turns
-// on the spot.
-Real turning_radius(const WorldState& world, const BodyInfo& info) {
-  Real farthest = 0;
-  for (const std::uint32_t slot : info.colliders) {
-    const ColliderInfo& collider = world.colliders.info[slot];
-    if (collider.component.is_sensor) continue;
-    farthest = std::max(farthest, length(collider.in_body.p) + bounding_radius(collider.shape) -
-                                      collider.shape.radius);
-  }
-  return farthest;
-}
-
 bool moved_far(const WorldState& world, std::uint32_t dense) {
   const BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
   const Real path = length_squared(world.delta[dense].dp);
@@ -29,7 +16,7 @@ bool moved_far(const WorldState& world, std::uint32_t dense) {
   // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
   if (!(Real(2) * (path + spin * info.radius * info.radius) > limit * limit)) return false;
   return limit > Real(0) && !info.disabled &&
-         std::sqrt(path) + std::sqrt(spin) * turning_radius(world, info) > limit;
+         std::sqrt(path) + std::sqrt(spin) * info.turning_radius > limit;
 }
 
 }  // namespace

@@ -185,16 +185,25 @@ AccurateChoice accurate_choice(const WorldState& world) {
     return {false, "the settings ask for soft steps"};
   if (world.settings.contact_solver == ContactSolver::Newton)
     return {!world.contacts.empty() || !world.joints.empty(), "the settings ask for it"};
-  std::uint32_t staying = 0;
-  for (const BodyInfo& info : world.bodies.info)
+  std::uint32_t staying = 0, refused = 0;
+  for (const BodyInfo& info : world.bodies.info) {
     if (info.alive && info.newton_steps > 0) ++staying;
-  const newton::Calls calls = newton::look_for_calls(world);
-  if (!calls.any() && staying == 0)
-    return {false, "no contact carries much more than the lighter body, or overlaps deeply"};
+    if (info.alive && info.newton_pause > 0) ++refused;
+  }
+  const std::string beyond =
+      refused == 0
+          ? ""
+          : "; " + std::to_string(refused) +
+                " bodies go on in soft steps for a while: too many, too costly, or held by joints";
+  const newton::Calls& calls = world.newton_calls;
+  if (staying == 0)
+    return {false,
+            "no contact carries much more than the lighter body, or overlaps deeply, for long" +
+                beyond};
   return {true, std::to_string(calls.mass) + " contacts have a heavy body on a light one, " +
                     std::to_string(calls.load) + " press with many weights, " +
                     std::to_string(calls.overlap) + " overlap under load; " +
-                    std::to_string(staying) + " bodies stay with it for a while"};
+                    std::to_string(staying) + " bodies stay with it for a while" + beyond};
 }
 
 std::string of(std::uint32_t part, std::uint32_t whole, const char* what) {
