@@ -10,7 +10,7 @@ namespace {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 // A quaternion typed with three decimals is that near to length one; farther off is a slip.
 constexpr double kUnitTolerance = 2e-3;
-constexpr int kMostSubsteps = 64;
+constexpr int kMostSubsteps = 64, kMostIterations = 64;
 // Steps shorter or longer than these, and longer runs, are slips of a unit.
 constexpr Range kStepRange{1e-9, 1e3, false};       // [s]
 constexpr Range kRateRange{1e-3, 1e9, false};       // [1/s]
@@ -44,6 +44,8 @@ void read_settings(const JsonNode& node, WorldSettings& settings, Problems& prob
   in.number("contact_damping_ratio", settings.contact_damping_ratio, kNotNegative);
   in.choice("rotation", kRotationMethods, settings.rotation);
   in.choice("contact_solver", kContactSolvers, settings.contact_solver);
+  in.integer("velocity_iterations", settings.velocity_iterations, 1, kMostIterations);
+  in.choice("friction_cone", kFrictionCones, settings.friction_cone);
   in.integer("joint_order", settings.joint_order, 2, 4);
   in.flag("warm_starting", settings.warm_starting);
   in.flag("sleeping", settings.sleeping);

@@ -68,6 +68,8 @@ Json json_of(const WorldSettings& settings) {
           {"contact_damping_ratio", tidy(settings.contact_damping_ratio)},
           {"rotation", word(scene::kRotationMethods, settings.rotation)},
           {"contact_solver", word(scene::kContactSolvers, settings.contact_solver)},
+          {"velocity_iterations", settings.velocity_iterations},
+          {"friction_cone", word(scene::kFrictionCones, settings.friction_cone)},
           {"joint_order", settings.joint_order},
           {"warm_starting", settings.warm_starting},
           {"sleeping", settings.sleeping},

@@ -1,6 +1,7 @@
 // What the `plumb` program can do: one function a subcommand, each returns the exit code.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,15 +14,20 @@ enum ExitCode : int {
   kBadInput = 2,  // the user has to correct something: an option, a file, a path
 };
 
+// The words of the scene key contact_solver, in the order of ContactSolver.
+inline constexpr std::array<const char*, 4> kSolverWords{"soft_step", "newton", "auto",
+                                                         "worst_first"};
+
 struct RunOptions {
   std::string scene;
   std::string output;                 // empty: nothing is recorded
   std::optional<std::int64_t> steps;  // >= 0
   std::optional<std::string> dt;      // [s] "0.01" or "1/60"
   std::optional<int> substeps;
-  std::optional<std::string> solver;  // a word of the scene key contact_solver
+  std::optional<std::string> solver;  // one of kSolverWords
   int threads = 1;                    // 0: as many as the machine has
   bool labels = false;                // names in the recording's 3D view
+  bool ledger = false;                // energy and momentum ledger in the recording's plots
   bool quiet = false;
 };
 int run_scene(const RunOptions& options);

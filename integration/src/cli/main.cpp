@@ -37,19 +37,23 @@ CLI::Validator not_empty() {
 void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
   CLI::App* run = app.add_subcommand("run", "Simulate a scene; record it with -o");
   run->add_option("SCENE", options.scene, "Scene file (JSON)")->required();
-  run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file")
-      ->check(not_empty());
+  CLI::Option* output =
+      run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file")
+          ->check(not_empty());
   run->add_option("--steps", options.steps, "Number of steps instead of the scene's duration")
       ->check(CLI::Range(std::int64_t{0}, kMostSteps));
   run->add_option("--dt", options.dt,
                   "Length of a step in seconds, such as 0.01 or 1/60, instead of the scene's");
   run->add_option("--substeps", options.substeps, "Solver steps within one step (1 to 64)");
   run->add_option("--solver", options.solver, "Contact solver instead of the scene's")
-      ->check(CLI::IsMember({"soft_step", "newton", "auto"}));
+      ->check(CLI::IsMember(std::vector<std::string>(kSolverWords.begin(), kSolverWords.end())));
   run->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
   run->add_flag("--labels", options.labels, "Show names beside bodies and joints in the recording");
+  run->add_flag("--ledger", options.ledger,
+                "Show in the recording where the energy and momentum of each step went; slower")
+      ->needs(output);
   run->add_flag("-q,--quiet", options.quiet, "No progress bar and no summary");
   run->callback([&] { exit_code = run_scene(options); });
 }

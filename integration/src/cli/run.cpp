@@ -1,4 +1,5 @@
 // plumb run SCENE
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -42,9 +43,8 @@ std::string apply(const RunOptions& options, assets::Scene& scene) {
     }
   }
   if (options.solver) {
-    scene.settings.contact_solver = *options.solver == "newton" ? ContactSolver::Newton
-                                    : *options.solver == "auto" ? ContactSolver::Auto
-                                                                : ContactSolver::SoftStep;
+    const auto word = std::find(kSolverWords.begin(), kSolverWords.end(), *options.solver);
+    scene.settings.contact_solver = static_cast<ContactSolver>(word - kSolverWords.begin());
   }
   return {};
 }
@@ -107,6 +107,9 @@ int run_scene(const RunOptions& options) {
     for (const std::string& note : instance->notes) complain("note: " + note);
   }
 
+  StepDiagnostics diagnostics;
+  diagnostics.ledger = options.ledger;
+  world.set_diagnostics(diagnostics);
   RecordingFile recording;
   if (!options.output.empty()) {
     const std::string wrong =

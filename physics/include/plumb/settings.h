@@ -49,7 +49,24 @@ enum class ContactSolver : std::uint8_t {
   // goes on in soft steps (world.plan() tells; physics/README.md has the map). The bits are those
   // of SoftStep where nothing calls.
   Auto,
+  // Sequential, as the textbook has it [Millington 2010]: in every substep the worst penetration
+  // by itself, then the next, then likewise the contact that closes fastest; nothing is remembered
+  // (src/solver/worst_first.cpp). There to be compared with: its time grows with the square of the
+  // number of contacts.
+  WorstFirst,
 };
+inline constexpr int kContactSolverCount = 4;
+
+// Up to where friction holds: all tangential impulses f of a point with normal impulse N that are
+// within a circle of radius mu N, or within a polygon about that circle, with its first facet
+// across the contact's first tangent: what engines limit axis by axis. A body on a polygon is held
+// and slowed by more than mu N between the middles of its facets, and drawn to one side.
+enum class FrictionCone : std::uint8_t {
+  Exact,        // the circle; the default
+  FourFacets,   // |f1|, |f2| <= mu N: up to 41% too much
+  EightFacets,  // |f1|, |f2|, |f1 +- f2| / sqrt(2) <= mu N: up to 8% too much
+};
+inline constexpr int kFrictionConeCount = 3;
 
 struct WorldSettings {
   Vec3 gravity = Vec3(0, Real(-9.81), 0);  // [m/s^2] finite
@@ -64,6 +81,13 @@ struct WorldSettings {
 
   RotationMethod rotation = RotationMethod::Exact;
   ContactSolver contact_solver = ContactSolver::Auto;
+  // Passes of the soft steps over contacts, and joints of what touches something, in each substep
+  // [-] 1..64; what other engines call iterations. There to be compared with more substeps.
+  // WorstFirst: so many times eight resolutions a contact. Newton needs none.
+  int velocity_iterations = 1;
+  // Polygons are there to be compared with the circle. Bounces, rolling friction, Newton and
+  // WorstFirst keep circles.
+  FrictionCone friction_cone = FrictionCone::Exact;
   // Order in the substep of what jointed bodies that touch nothing do [-], 2 or 4. 4: five times
   // the cost of their joints; with four substeps in double the error of a pendulum's period falls
   // from 2e-5 to 4e-8, with one from 4e-4 to 1e-7. What has motors, friction, dampers or limits

@@ -190,7 +190,8 @@ BlockKernel choose_block_kernel(int bits) {
 
 void fill_blocks(WorldState& world) {
   const StepDiagnostics& looks = world.diagnostics;
-  world.blocks.kernel = looks.ledger ? BlockKernel{} : choose_block_kernel(looks.kernel_bits);
+  const bool alone = looks.ledger || world.settings.friction_cone != FrictionCone::Exact;
+  world.blocks.kernel = alone ? BlockKernel{} : choose_block_kernel(looks.kernel_bits);
   Sorter(world).sort();
   const std::size_t lanes = static_cast<std::size_t>(world.blocks.kernel.lanes);
   for_blocks(world, [&](const BlockHead& head) {

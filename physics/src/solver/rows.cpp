@@ -11,6 +11,7 @@
 #include "solver/newton/newton_solver.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
+#include "solver/worst_first.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -407,7 +408,8 @@ void build_rows(WorldState& world) {
   find_spinning_rows(world);
   find_adhesive_rows(world);
   world.bouncing_rows.clear();
-  for (std::uint32_t i = 0; i < count; ++i)
+  const bool bounces_in_time = !resolves_worst_first(world);
+  for (std::uint32_t i = 0; i < count && bounces_in_time; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);
   find_turned_rows(world);
   if (world.newton != nullptr && world.newton->count > 0) gather_newton_islands(world);

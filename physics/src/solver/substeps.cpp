@@ -4,7 +4,7 @@
 //     impacts     bounces at their own time inside the substep (impacts.cpp)
 //     kick        v += h a, L += h torque; damping exact
 //     warm start  the impulses of the last substep
-//     solve       one pass, overlap worked off softly
+//     solve       one pass or more (velocity_iterations), overlap worked off softly
 //     drift       dp += h v; rotation by the torque-free flow with L fixed
 //     relax       one pass without the bias: the velocities that push out overlap do not stay
 //     trapezoid   dp += theta (h/2)(v_start - v_end): free fall, sliding and rolling become exact
@@ -16,6 +16,7 @@
 #include "motion/body_motion.h"
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
+#include "solver/facet_cone.h"
 #include "solver/joints/joint_stages.h"
 #include "solver/newton/newton_solver.h"
 #include "solver/plain_bodies.h"
@@ -23,6 +24,7 @@
 #include "solver/row_velocities.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
+#include "solver/worst_first.h"
 #include "world/ledger_charges.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -130,17 +132,38 @@ void finish_body(WorldState& world, std::uint32_t i) {
 
 // Rolling and torsional friction of a row that has it, then friction, with a grain if it has one.
 // Returns whether the contact turns nevertheless.
-bool rub(WorldState& world, ContactRow<Real>& row, bool first_pass, RowVelocities<Real>& u,
-         Real& load, Real& sliding) {
+template <class Cone>
+bool rub_within(const Cone& cone, WorldState& world, ContactRow<Real>& row, bool first_pass,
+                RowVelocities<Real>& u, Real& load, Real& sliding) {
   if (row.turning == ContactRow<Real>::kNoTurning) {
-    solve_friction(row, u, load, sliding);
+    solve_friction(row, u, load, sliding, cone);
     return false;
   }
   TurningRow<Real>& turning = world.turning_rows[row.turning];
   if (first_pass) turning.impulse1 = turning.impulse2 = turning.impulse3 = Real(0);
   const bool turns = solve_turning(row, turning, u);
-  solve_friction(row, u, load, sliding, GrainCone<Real>{row.along});
+  solve_friction(row, u, load, sliding, GrainCone<Real, Cone>{cone, row.along});
   return turns;
+}
+bool rub(WorldState& world, ContactRow<Real>& row, bool first_pass, RowVelocities<Real>& u,
+         Real& load, Real& sliding) {
+  const FrictionCone cone = world.settings.friction_cone;
+  return cone == FrictionCone::Exact
+             ? rub_within(RoundCone{}, world, row, first_pass, u, load, sliding)
+             : rub_within(FacetCone{cone}, world, row, first_pass, u, load, sliding);
+}
+
+void solve_row(WorldState& world, ContactRow<Real>& row, Real inverse_h, bool first_pass) {
+  if (row.skip) return;
+  const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
+  RowVelocities<Real> u = read_velocities(world, row);
+  Real load = 0, sliding = 0;
+  RowCharge charged(world, row, world.diagnostics.ledger);
+  solve_normal(row, change, inverse_h, true, u);
+  charged.as(&EnergyLedger::normal, u);
+  rub(world, row, first_pass, u, load, sliding);
+  charged.as(&EnergyLedger::friction, u);
+  write_velocities(world, row, u);
 }
 
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
@@ -231,6 +254,7 @@ void run_substeps(WorldState& world) {
   const int extra_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses - 1 : 0;
   const bool joints = !world.joints.empty();
   const bool newton = world.newton != nullptr && world.newton->count > 0;
+  const bool worst_first = resolves_worst_first(world);
   const bool effects = world.effects != nullptr && !world.effects->empty();
   const bool ledger = world.diagnostics.ledger;
   JobSystem* const jobs = world.jobs;
@@ -273,20 +297,15 @@ void run_substeps(WorldState& world) {
       if (ledger) charge_warm_start(world, row, energy, before, u);
     });
     if (ledger) charge(world, &EnergyLedger::normal);
-    if (joints) solve_joints(world);
-    if (ledger) charge(world, &EnergyLedger::joints);
-    for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
-      if (row.skip) return;
-      const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
-      RowVelocities<Real> u = read_velocities(world, row);
-      Real load = 0, sliding = 0;
-      RowCharge charged(world, row, ledger);
-      solve_normal(row, change, pass.inverse_h, true, u);
-      charged.as(&EnergyLedger::normal, u);
-      rub(world, row, true, u, load, sliding);
-      charged.as(&EnergyLedger::friction, u);
-      write_velocities(world, row, u);
-    });
+    for (int i = 0; i < world.settings.velocity_iterations; ++i) {
+      const bool first = i == 0;
+      if (ledger && !first) charge(world, &EnergyLedger::normal);
+      if (joints) solve_joints(world);
+      if (ledger) charge(world, &EnergyLedger::joints);
+      for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
+        solve_row(world, row, pass.inverse_h, first);
+      });
+    }
     if (newton) solve_newton_islands(world);
     if (ledger) charge(world, &EnergyLedger::normal);
     bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
@@ -310,6 +329,7 @@ void run_substeps(WorldState& world) {
     };
     for (int i = 0; i < extra_passes; ++i) relax(false, true);
     relax(true, false);
+    if (worst_first) resolve_worst_first(world);
     if (ledger) charge(world, &EnergyLedger::normal);
     bodies.finish([&](std::uint32_t i) { return trapezoid_weight(world, i); },
                   [&](std::uint32_t i) { finish_body(world, i); });

@@ -183,6 +183,8 @@ struct AccurateChoice {
 AccurateChoice accurate_choice(const WorldState& world) {
   if (world.settings.contact_solver == ContactSolver::SoftStep)
     return {false, "the settings ask for soft steps"};
+  if (world.settings.contact_solver == ContactSolver::WorstFirst)
+    return {false, "the settings ask for the worst contact first"};
   if (world.settings.contact_solver == ContactSolver::Newton)
     return {!world.contacts.empty() || !world.joints.empty(), "the settings ask for it"};
   std::uint32_t staying = 0, refused = 0;

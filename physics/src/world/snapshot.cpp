@@ -31,6 +31,8 @@ void visit_world(Table& t, WorldState& world) {
   t("contact_spring", s.contact_frequency, s.contact_damping_ratio);
   t("rotation", s.rotation);
   t("contact_solver", s.contact_solver);
+  t("velocity_iterations", s.velocity_iterations);
+  t("friction_cone", s.friction_cone);
   t("joint_order", s.joint_order);
   t("switches", s.warm_starting, s.sleeping, s.profiling);
   t("time_to_sleep", s.time_to_sleep);

@@ -134,9 +134,12 @@ Status check(const WorldSettings& s) {
     return {StatusCode::OutOfRange, "time to sleep must be finite and not negative [s]"};
   if (static_cast<int>(s.rotation) >= kRotationMethodCount)
     return {StatusCode::OutOfRange, "rotation method is none of the eight of RotationMethod"};
-  if (s.contact_solver != ContactSolver::SoftStep && s.contact_solver != ContactSolver::Newton &&
-      s.contact_solver != ContactSolver::Auto)
-    return {StatusCode::OutOfRange, "contact solver is none of SoftStep, Newton, Auto"};
+  if (static_cast<int>(s.contact_solver) >= kContactSolverCount)
+    return {StatusCode::OutOfRange, "contact solver is none of SoftStep, Newton, Auto, WorstFirst"};
+  if (s.velocity_iterations < 1 || s.velocity_iterations > 64)
+    return {StatusCode::OutOfRange, "velocity iterations must lie in 1..64"};
+  if (static_cast<int>(s.friction_cone) >= kFrictionConeCount)
+    return {StatusCode::OutOfRange, "friction cone is none of the three of FrictionCone"};
   if (s.joint_order != 2 && s.joint_order != 4)
     return {StatusCode::OutOfRange, "joint order must be 2 or 4"};
   return {};

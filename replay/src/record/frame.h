@@ -34,6 +34,7 @@ struct Frame {
   bool effects_changed = false;          // else they are as they were
   StepReport report;
   bool profiled = false;      // the report has the stages' times
+  bool ledger = false;        // ... and says where energy and momentum went
   bool moved = false;         // false: the step was refused, or of no length
   bool has_snapshot = false;  // else what is in it is an older one
   Snapshot snapshot;          // after the step

@@ -152,7 +152,7 @@ void leave_grained_islands(const WorldState& world, Solver& solver) {
 void find_newton_islands(WorldState& world) {
   const ContactSolver wanted = world.settings.contact_solver;
   const bool chooses = wanted == ContactSolver::Auto;
-  if (wanted == ContactSolver::SoftStep || (chooses && !newton::is_called(world))) {
+  if ((!chooses && wanted != ContactSolver::Newton) || (chooses && !newton::is_called(world))) {
     if (world.newton != nullptr) world.newton->count = 0;
     return;
   }
