@@ -128,6 +128,8 @@ void append(std::vector<double>& out, const WorldSettings& s) {
                    s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0, as_number(s.time_to_sleep),
                    s.profiling ? 1.0 : 0.0, static_cast<double>(s.contact_solver),
                    static_cast<double>(s.joint_order)});
+  append_long(out, s.forced.items_off());
+  append_long(out, s.forced.items_on());
 }
 
 double NumberReader::number() {
@@ -272,6 +274,8 @@ WorldSettings NumberReader::settings() {
   s.profiling = flag();
   s.contact_solver = choice<ContactSolver>(*this, 3, ok_);
   s.joint_order = static_cast<int>(word());
+  const std::uint64_t items_off = long_word();
+  s.forced = PlanChoices(items_off, long_word());
   return s;
 }
 

@@ -6,6 +6,7 @@
 #include "solver/newton/choose.h"
 #include "solver/newton/newton_solver.h"
 #include "solver/newton/tolerances.h"
+#include "world/forced.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -133,7 +134,7 @@ void leave_grained_islands(const WorldState& world, Solver& solver) {
 }  // namespace
 
 void find_newton_islands(WorldState& world) {
-  const ContactSolver wanted = world.settings.contact_solver;
+  const ContactSolver wanted = solver_of(world.settings);
   const bool chooses = wanted == ContactSolver::Auto;
   if (wanted == ContactSolver::SoftStep || (chooses && !newton::choose_bodies(world))) {
     if (world.newton != nullptr) world.newton->count = 0;
