@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "plumb/math.h"
+#include "plumb/plan_items.h"
 #include "plumb/status.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -98,6 +99,11 @@ struct WorldSettings {
   bool sleeping = true;       // islands at rest stop costing anything
   Real time_to_sleep = Real(0.5);  // [s] >= 0 that every body of an island must have been at rest
   bool profiling = false;          // fill StepReport::stage_seconds
+
+  // Items of the plan that are forced on or off, whatever the scene calls for; what is forced off
+  // is told by world.plan() with the bound on what is lost. AccurateContacts goes before
+  // contact_solver, Sleeping before sleeping.
+  PlanChoices forced{};
 
   // The cheapest settings and step known to keep the error below a tolerance, or the most accurate
   // ones within a budget, by measurements of this build's number types (`plumb accuracy --table`

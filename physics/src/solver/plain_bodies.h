@@ -17,7 +17,9 @@ inline bool is_plain(const WorldState& world, std::uint32_t i) {
   const BodyForce& force = world.bodies.force[i];
   const BodyMass& mass = world.bodies.mass[i];
   return mass.mass > Real(0) && mass.angular_locks == 0 && !(force.linear_damping > Real(0)) &&
-         !(force.angular_damping > Real(0)) && world.settings.rotation == RotationMethod::Exact;
+         !(force.angular_damping > Real(0)) &&
+         rotation_of(world.settings) == RotationMethod::Exact &&
+         !world.settings.forced.off(PlanItem::Gyroscopic);
 }
 
 class PlainBodies {

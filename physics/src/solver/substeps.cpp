@@ -124,7 +124,7 @@ void finish_body(WorldState& world, std::uint32_t i) {
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
-  if (keeps_momentum(world.settings.rotation))
+  if (turning_keeps_momentum(world.settings))
     delta.dq = turned_further(
         delta.dq,
         weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost));
@@ -240,7 +240,7 @@ void fly_body(WorldState& world, std::uint32_t i) {
   };
   half_kick();
   Rotation q = world.bodies.pose[i].q;
-  turn_freely(world.settings.rotation, mass, q, L, dt);
+  turn(world.settings, mass, q, L, dt);
   half_kick();
   velocity.w = angular_velocity_of(mass, q, L);
   if (!is_finite(q)) return;

@@ -4,6 +4,7 @@
 
 #include "collision/collide_parts.h"
 #include "world/body_sweep.h"
+#include "world/forced.h"
 #include "world/inner_edges.h"
 #include "world/one_way.h"
 #include "world/recycling.h"
@@ -133,7 +134,9 @@ bool find_first_touch(const WorldState& world, const Pair& pair, const ColliderI
   const Vec v = world.bodies.velocity[info_b.dense].v - world.bodies.velocity[info_a.dense].v;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Vec path = world.dt * v;
-  if (length(path) <= tolerance::kSweptFraction * thickness) return false;
+  const Real far =
+      threshold(world.settings, PlanItem::LookAhead, tolerance::kSweptFraction * thickness);
+  if (length(path) <= far) return false;
   const Num t = first_touch(pair, a, xa, b, xb, path);
   if (!(t > Num(0))) return false;
   advance = static_cast<Real>(t) * path;
@@ -328,6 +331,7 @@ void take_findings(WorldState& world) {
     } else if (!found.kept) {
       std::copy(contacts.begin(), contacts.end(), to.begin() + pair.first_contact);
     }
+    if (found.kept) ++world.report.kept_pairs;
     pair.contact_count = found.count;
     pair.touching = found.count > 0 || found.overlaps;
     pair.passage = found.passage;
@@ -372,6 +376,8 @@ void spread_depth(WorldState& world) {
       if (b != 0) deep[b] = 1;
     }
   }
+  world.report.deep_bodies =
+      static_cast<std::uint32_t>(std::count(deep.begin(), deep.end(), std::uint8_t{1}));
 }
 
 void report_contacts(WorldState& world) {
@@ -379,6 +385,8 @@ void report_contacts(WorldState& world) {
   report.candidate_pairs = static_cast<std::uint32_t>(world.pairs.size());
   for (const Pair& pair : world.pairs) report.touching_pairs += pair.contact_count > 0 ? 1 : 0;
   world.deep_overlap = false;
+  const Real deep_slops =
+      threshold(world.settings, PlanItem::DeepOverlap, tolerance::kDeepSlops, Real(-1));
   for (const Contact& contact : world.contacts) {
     report.contact_points += static_cast<std::uint32_t>(contact.manifold.count);
     if (length_squared(contact.advance) > Real(0)) ++report.looked_ahead;
@@ -386,7 +394,7 @@ void report_contacts(WorldState& world) {
     for (int k = 0; k < contact.manifold.count; ++k)
       depth = std::max(depth, -contact.manifold.points[k].separation);
     report.largest_penetration = std::max(report.largest_penetration, static_cast<double>(depth));
-    if (depth > tolerance::kDeepSlops * world.pairs[contact.pair].slop) note_depth(world, contact);
+    if (depth > deep_slops * world.pairs[contact.pair].slop) note_depth(world, contact);
   }
 }
 

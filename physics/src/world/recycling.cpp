@@ -99,6 +99,7 @@ void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Cont
 
 bool recycle(WorldState& world, const Pair& pair, Real margin, Real reach) {
   if (pair.contact_count == 0 || pair.one_way) return false;
+  if (world.settings.forced.off(PlanItem::KeptManifolds)) return false;
   const std::span<Contact> contacts = contacts_of(pair, world.contacts);
   const KeptManifold& first = contacts.front().kept;
   const Real tolerance = tolerance::kRecycleSlops * pair.slop;

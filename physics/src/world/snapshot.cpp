@@ -34,6 +34,9 @@ void visit_world(Table& t, WorldState& world) {
   t("velocity_iterations", s.velocity_iterations);
   t("friction_cone", s.friction_cone);
   t("joint_order", s.joint_order);
+  std::uint64_t items_off = s.forced.items_off(), items_on = s.forced.items_on();
+  t("forced", items_off, items_on);
+  s.forced = PlanChoices(items_off, items_on);
   t("switches", s.warm_starting, s.sleeping, s.profiling);
   t("time_to_sleep", s.time_to_sleep);
   t("time", world.time);

@@ -5,6 +5,7 @@
 #include "math/eigen_bridge.h"
 #include "solver/newton/island.h"
 #include "solver/newton/tolerances.h"
+#include "world/forced.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -13,7 +14,7 @@ namespace plumb::inline PLUMB_ABI::detail::newton {
 CallsOfRows::CallsOfRows(const WorldState& world)
     : world_(world),
       gravity_(to_inner(world.settings.gravity)),
-      g_(world.settings.contact_solver == ContactSolver::Auto ? length(gravity_) : Real(0)) {}
+      g_(solver_of(world.settings) == ContactSolver::Auto ? length(gravity_) : Real(0)) {}
 
 Call CallsOfRows::of(const ContactRow<Real>& row) const {
   // A body alone with what does not move presses as it strikes; what lies on others weighs on them.

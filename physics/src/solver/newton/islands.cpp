@@ -7,6 +7,7 @@
 #include "solver/newton/choose.h"
 #include "solver/newton/newton_solver.h"
 #include "solver/newton/tolerances.h"
+#include "world/forced.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -150,7 +151,7 @@ void leave_grained_islands(const WorldState& world, Solver& solver) {
 }  // namespace
 
 void find_newton_islands(WorldState& world) {
-  const ContactSolver wanted = world.settings.contact_solver;
+  const ContactSolver wanted = solver_of(world.settings);
   const bool chooses = wanted == ContactSolver::Auto;
   if ((!chooses && wanted != ContactSolver::Newton) || (chooses && !newton::is_called(world))) {
     if (world.newton != nullptr) world.newton->count = 0;

@@ -6,6 +6,7 @@
 #include "solver/newton/island_build.h"
 #include "solver/newton/newton_method.h"
 #include "solver/row_end.h"
+#include "world/forced.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -111,7 +112,7 @@ void settle_newton_islands(WorldState& world) {
 }
 
 void report_newton_islands(WorldState& world) {
-  const bool chosen = world.settings.contact_solver == ContactSolver::Auto;
+  const bool chosen = solver_of(world.settings) == ContactSolver::Auto;
   StepReport& report = world.report;
   const newton::Solver& solver = *world.newton;
   report.newton_too_large = solver.too_large;
