@@ -56,10 +56,10 @@ void for_links(const WorldState& world, Task&& task) {
 }
 
 // The awake bodies by slot: where they lie in memory differs in a world that was restored.
-std::vector<std::uint32_t> awake_by_slot(const WorldState& world) {
+StepList<std::uint32_t> awake_by_slot(WorldState& world) {
   const BodyStore& bodies = world.bodies;
-  std::vector<std::uint32_t> slots(bodies.slot_of.begin() + bodies.awake_begin,
-                                   bodies.slot_of.begin() + bodies.awake_end);
+  StepList<std::uint32_t> slots(bodies.slot_of.begin() + bodies.awake_begin,
+                                bodies.slot_of.begin() + bodies.awake_end, &world.memory);
   std::sort(slots.begin(), slots.end());
   return slots;
 }
@@ -70,7 +70,7 @@ void number_islands(WorldState& world, Solver& solver) {
   solver.place.assign(end, {});
   solver.parents.resize(end);
   std::iota(solver.parents.begin(), solver.parents.end(), 0u);
-  std::vector<std::uint8_t> held(end, 0);
+  StepList<std::uint8_t> held(end, 0, &world.memory);
   for_links(world, [&](std::uint32_t a, std::uint32_t b) {
     held[a] = 1;
     if (!moves(world, b)) return;
@@ -78,7 +78,7 @@ void number_islands(WorldState& world, Solver& solver) {
     link(solver.parents, a, b);
   });
   solver.count = 0;
-  std::vector<std::uint32_t> island_of(end, kNone);
+  StepList<std::uint32_t> island_of(end, kNone, &world.memory);
   for (const std::uint32_t slot : awake_by_slot(world)) {
     const std::uint32_t i = world.bodies.dense_of[slot];
     const std::uint32_t root = root_of(solver.parents, i);
@@ -164,7 +164,7 @@ void find_newton_islands(WorldState& world) {
   if (chooses && !world.joints.empty()) leave_jointed_islands(world, solver);
   if (world.counts.grained > 0) leave_grained_islands(world, solver);
   solver.too_large = 0;
-  std::vector<std::uint8_t> fits(solver.count, 0);
+  StepList<std::uint8_t> fits(solver.count, 0, &world.memory);
   parallel_for(world, solver.count, 1, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) {
       Island& island = solver.islands[i];
