@@ -79,7 +79,7 @@ struct WorldSettings {
 
   RotationMethod rotation = RotationMethod::Exact;
   ContactSolver contact_solver = ContactSolver::SoftStep;
-  // Passes of the soft steps over contacts, and joints of what touches something, in each substep
+  // Passes of each kind, soft and relaxing, that the soft steps make over the contacts in a substep
   // [-] 1..64; what other engines call iterations. There to be compared with more substeps.
   // WorstFirst: so many times eight resolutions a contact. Newton needs none.
   int velocity_iterations = 1;
