@@ -149,6 +149,18 @@ TEST(PeerRows, BecomeCurvesWithErrorsAgainstTheRightReadings) {
   EXPECT_NE(add_peer_line("who knows", result, notes), "");
 }
 
+// Two ways of one engine are two curves under its one name.
+TEST(PeerRows, OfVariantsOfAnEngineAreTwoCurves) {
+  CaseResult result = pendulum();
+  std::vector<std::string> notes;
+  for (const char* line : {"F9,mujoco,\"4.0.0, f64, Euler\",0.1,3,1,2.5",
+                           "F9,mujoco-rk4,\"4.0.0 RK4, f64, elliptic\",0.1,3,1,2.25"})
+    EXPECT_EQ(add_peer_line(line, result, notes), "") << line;
+  ASSERT_EQ(result.peers.size(), 2u);
+  EXPECT_EQ(label_of(result.peers[0]), "MuJoCo 4.0.0, f64, Euler");
+  EXPECT_EQ(short_label_of(result.peers[1]), "MuJoCo 4.0.0 RK4, f64");
+}
+
 TEST(PeerRows, AreMarkedInReportsAndLeaveOurFrontAlone) {
   CaseResult result = pendulum();
   result.series = {{"dt, f64", {}, true}};

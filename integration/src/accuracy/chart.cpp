@@ -27,7 +27,7 @@ std::string with_order(const std::string& label, const OrderFit& fit) {
 }
 
 // Line styles of other engines stand after our own.
-constexpr int kFirstPeerStyle = 101;
+constexpr int kFirstPeerStyle = 101, kPeerStyles = 6;
 
 std::string panel(const CaseResult& result) {
   const CaseInfo& info = *result.info;
@@ -63,8 +63,9 @@ std::string panel(const CaseResult& result) {
     for (const CurvePoint& p : curve.points)
       if (std::isfinite(p.error)) points += point(p.cost, p.error);
     add("peer" + std::to_string(i), points,
-        "with linespoints ls " + std::to_string(kFirstPeerStyle + static_cast<int>(i % 4)) +
-            " title '" + with_order(short_label_of(curve), curve.fit) + "'");
+        "with linespoints ls " +
+            std::to_string(kFirstPeerStyle + static_cast<int>(i) % kPeerStyles) + " title '" +
+            with_order(short_label_of(curve), curve.fit) + "'");
   }
   // What others have published, where the time is known too; on their machine, not on this one.
   for (std::size_t i = 0; i < info.published.size(); ++i) {
@@ -113,7 +114,8 @@ std::string chart_script(const std::vector<const CaseResult*>& results, Family f
     const char* color;
     int mark;
   };
-  constexpr Look kPeerLooks[] = {{"#222222", 6}, {"#8a4b12", 4}, {"#4d6b12", 8}, {"#777777", 10}};
+  constexpr Look kPeerLooks[kPeerStyles] = {{"#222222", 6},  {"#8a4b12", 4},  {"#4d6b12", 8},
+                                            {"#777777", 10}, {"#b03060", 12}, {"#2f6f8f", 14}};
   style = kFirstPeerStyle;
   for (const Look& look : kPeerLooks)
     script += "set style line " + std::to_string(style++) + " lw 1.6 ps 1.3 dt 2 pt " +

@@ -190,9 +190,11 @@ std::string add_peers(const std::string& program, CaseResult& result,
 
 std::string label_of(const PeerCurve& curve) {
   std::string name = curve.engine;
+  name = name.substr(0, name.find('-'));  // "mujoco-rk4": the settings tell the rest
   if (name == "ode") name = "ODE";
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   if (name == "Box3d") name = "Box3D";
+  if (name == "Mujoco") name = "MuJoCo";
   return name + " " + curve.settings;
 }
 

@@ -31,7 +31,7 @@ std::string peers_program();
 std::string missing(const std::string& program);
 
 // As many engines are known at most; a row each and step.
-inline constexpr std::size_t kMostPeers = 4;
+inline constexpr std::size_t kMostPeers = 6;
 
 // The steps at which the engines are run: the user's, or those of our own curves.
 std::vector<double> peer_steps(const CaseInfo& info, const KnobChoice& choice);

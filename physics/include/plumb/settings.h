@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "plumb/math.h"
+#include "plumb/plan_items.h"
 #include "plumb/status.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -40,12 +41,14 @@ struct SettingsChoice;
 
 // How contacts and joints that touch something are solved.
 enum class ContactSolver : std::uint8_t {
-  SoftStep,  // fast: one soft pass and one relaxing pass a substep (src/solver); the default
+  SoftStep,  // fast: one soft pass and one relaxing pass a substep (src/solver)
   // Accurate: each island to the exact laws in every substep, whatever its masses and its height,
   // in double (src/solver/newton). Costs more where many contacts open and close.
   Newton,
-  // Newton for the islands that call for it, soft steps for the others: where heavy bodies lie on
-  // light ones or many on one another (world.plan() tells; physics/README.md has the map).
+  // The default: soft steps, and Newton for the islands that call for it: where heavy bodies lie on
+  // light ones or many on one another. Its cost is bounded; what is too large or takes too long
+  // goes on in soft steps (world.plan() tells; physics/README.md has the map). The bits are those
+  // of SoftStep where nothing calls.
   Auto,
   // Sequential, as the textbook has it [Millington 2010]: in every substep the worst penetration
   // by itself, then the next, then likewise the contact that closes fastest; nothing is remembered
@@ -78,8 +81,8 @@ struct WorldSettings {
   Real contact_damping_ratio = Real(10);
 
   RotationMethod rotation = RotationMethod::Exact;
-  ContactSolver contact_solver = ContactSolver::SoftStep;
-  // Passes of each kind, soft and relaxing, that the soft steps make over the contacts in a substep
+  ContactSolver contact_solver = ContactSolver::Auto;
+  // Passes of the soft steps over contacts, and joints of what touches something, in each substep
   // [-] 1..64; what other engines call iterations. There to be compared with more substeps.
   // WorstFirst: so many times eight resolutions a contact. Newton needs none.
   int velocity_iterations = 1;
@@ -96,6 +99,11 @@ struct WorldSettings {
   bool sleeping = true;       // islands at rest stop costing anything
   Real time_to_sleep = Real(0.5);  // [s] >= 0 that every body of an island must have been at rest
   bool profiling = false;          // fill StepReport::stage_seconds
+
+  // Items of the plan that are forced on or off, whatever the scene calls for; what is forced off
+  // is told by world.plan() with the bound on what is lost. AccurateContacts goes before
+  // contact_solver, Sleeping before sleeping.
+  PlanChoices forced{};
 
   // The cheapest settings and step known to keep the error below a tolerance, or the most accurate
   // ones within a budget, by measurements of this build's number types (`plumb accuracy --table`

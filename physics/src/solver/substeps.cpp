@@ -125,7 +125,7 @@ void finish_body(WorldState& world, std::uint32_t i) {
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
-  if (keeps_momentum(world.settings.rotation))
+  if (turning_keeps_momentum(world.settings))
     delta.dq = turned_further(
         delta.dq,
         weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost));
@@ -184,6 +184,9 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
 }
 
 void store_impulses(WorldState& world) {
+  const newton::CallsOfRows calls(world);
+  StepList<newton::Call> called(calls.listens() ? world.rows.size() : 0, newton::Call::None,
+                                &world.memory);
   parallel_for(world, static_cast<std::uint32_t>(world.rows.size()), tolerance::kRowGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t k = begin; k < end; ++k) {
@@ -199,8 +202,10 @@ void store_impulses(WorldState& world) {
                      contact.step_friction_impulse[i] +=
                          point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
                    }
+                   if (!called.empty()) called[k] = calls.of(row);
                  }
                });
+  if (calls.listens()) newton::hear_calls(world, called.data());
 }
 
 bool flies(const SubstepBody& s, const BodyMass& mass) {
@@ -236,7 +241,7 @@ void fly_body(WorldState& world, std::uint32_t i) {
   };
   half_kick();
   Rotation q = world.bodies.pose[i].q;
-  turn_freely(world.settings.rotation, mass, q, L, dt);
+  turn(world.settings, mass, q, L, dt);
   half_kick();
   velocity.w = angular_velocity_of(mass, q, L);
   if (!is_finite(q)) return;

@@ -24,7 +24,7 @@ void color_contacts(WorldState& world) {
   const BodyStore& bodies = world.bodies;
   world.color_mask.assign(bodies.awake_end, 0);
   const auto mask_of = [&](std::uint32_t body) -> std::uint64_t* {
-    const std::uint32_t dense = bodies.info[body].dense;
+    const std::uint32_t dense = bodies.dense_of[body];
     return bodies.mass[dense].mass > Real(0) && dense < bodies.awake_end ? &world.color_mask[dense]
                                                                          : nullptr;
   };
@@ -36,8 +36,8 @@ void color_contacts(WorldState& world) {
     const Pair& pair = world.pairs[world.contacts[i].pair];
     std::uint64_t* a = mask_of(pair.body_a);
     std::uint64_t* b = mask_of(pair.body_b);
-    if (worst_first || (newton && (in_newton_island(world, bodies.info[pair.body_a].dense) ||
-                                   in_newton_island(world, bodies.info[pair.body_b].dense)))) {
+    if (worst_first || (newton && (in_newton_island(world, bodies.dense_of[pair.body_a]) ||
+                                   in_newton_island(world, bodies.dense_of[pair.body_b])))) {
       color_of[i] = kUncolored;
       continue;
     }

@@ -129,6 +129,8 @@ void append(std::vector<double>& out, const WorldSettings& s) {
                    s.profiling ? 1.0 : 0.0, static_cast<double>(s.contact_solver),
                    static_cast<double>(s.joint_order), static_cast<double>(s.velocity_iterations),
                    static_cast<double>(s.friction_cone)});
+  append_long(out, s.forced.items_off());
+  append_long(out, s.forced.items_on());
 }
 
 double NumberReader::number() {
@@ -275,6 +277,8 @@ WorldSettings NumberReader::settings() {
   s.joint_order = static_cast<int>(word());
   s.velocity_iterations = static_cast<int>(word());
   s.friction_cone = choice<FrictionCone>(*this, kFrictionConeCount, ok_);
+  const std::uint64_t items_off = long_word();
+  s.forced = PlanChoices(items_off, long_word());
   return s;
 }
 

@@ -54,7 +54,7 @@ bool wanted(const std::vector<std::string>& names, const std::string& name) {
 std::vector<const EngineKind*> choose_engines(const Options& options) {
   std::vector<const EngineKind*> out;
   for (const EngineKind& kind : engine_kinds()) {
-    const bool by_default = !kind.ours || kind.name == "ours";
+    const bool by_default = kind.name.find('-') == std::string::npos;  // "ours-auto": a variant
     if (options.engines.empty() ? by_default : wanted(options.engines, kind.name))
       out.push_back(&kind);
   }

@@ -57,5 +57,8 @@ EngineKind rapier_kind();
 #ifdef PLUMB_ANCHORS_BOX3D
 EngineKind box3d_kind();
 #endif
+#ifdef PLUMB_ANCHORS_MUJOCO
+std::vector<EngineKind> mujoco_kinds();  // by integrator
+#endif
 
 }  // namespace plumb::anchors

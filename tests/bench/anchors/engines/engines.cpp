@@ -17,6 +17,9 @@ const std::vector<EngineKind>& engine_kinds() {
 #ifdef PLUMB_ANCHORS_ODE
     all.push_back(ode_kind());
 #endif
+#ifdef PLUMB_ANCHORS_MUJOCO
+    for (EngineKind& kind : mujoco_kinds()) all.push_back(std::move(kind));
+#endif
     return all;
   }();
   return kinds;

@@ -25,6 +25,9 @@ else()
   message(STATUS "Plumb: no ODE (Debian: libode-dev), so it is not compared")
 endif()
 
+# --- MuJoCo, in double: the C library and headers out of its Python package ------------------------
+include("${CMAKE_CURRENT_LIST_DIR}/mujoco.cmake")
+
 # --- Rapier and Box3D, by cargo -------------------------------------------------------------------
 if(NOT PLUMB_CARGO)
   message(STATUS "Plumb: no cargo, so Rapier and Box3D are not compared")
