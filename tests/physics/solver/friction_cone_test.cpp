@@ -20,6 +20,7 @@ constexpr FrictionCone kPolygons[] = {FrictionCone::FourFacets, FrictionCone::Ei
 
 WorldSettings with_cone(FrictionCone cone) {
   WorldSettings settings = no_sleep();
+  settings.contact_solver = ContactSolver::SoftStep;
   settings.friction_cone = cone;
   return settings;
 }

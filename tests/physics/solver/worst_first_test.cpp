@@ -245,7 +245,26 @@ TEST(WorstFirst, IsTheSameWithThreadsAndAfterARestore) {
   EXPECT_EQ(hashes.size(), 1u);
 }
 
-// Joints, belts, effects and bodies that bounce meet it without harm.
+// A plan that forces the accurate contacts on or off goes before it.
+TEST(WorstFirst, GivesWayToAForcedPlan) {
+  const auto hash_of = [](ContactSolver solver, Choice accurate) {
+    WorldSettings settings = worst_first();
+    settings.contact_solver = solver;
+    settings.forced.set(PlanItem::AccurateContacts, accurate);
+    PhysicsWorld world(settings);
+    build_pile(world, {.side = 2});
+    run(world, 1);
+    return world.state_hash();
+  };
+  EXPECT_EQ(hash_of(ContactSolver::WorstFirst, Choice::On),
+            hash_of(ContactSolver::Newton, Choice::Automatic));
+  EXPECT_EQ(hash_of(ContactSolver::WorstFirst, Choice::Off),
+            hash_of(ContactSolver::SoftStep, Choice::Automatic));
+  EXPECT_NE(hash_of(ContactSolver::WorstFirst, Choice::Automatic),
+            hash_of(ContactSolver::SoftStep, Choice::Automatic));
+}
+
+// Joints meet it without harm.
 TEST(WorstFirst, LivesWithJoints) {
   PhysicsWorld world(worst_first());
   add_floor(world, material(0.5, 0.4));
