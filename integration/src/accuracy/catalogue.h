@@ -33,6 +33,7 @@ struct CaseInfo {
   bool turns = false;       // rotation methods are compared
   bool swings = false;      // joint orders are compared
   bool touches = false;     // warm starting is compared
+  bool rubs_askew = false;  // friction cones are compared
   bool flies_fast = false;  // continuous collision is compared
   double measure = 0;       // published measure = this times the square of the error
   double body_seconds = 0;  // [s] bodies times simulated time

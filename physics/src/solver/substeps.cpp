@@ -4,9 +4,10 @@
 //     impacts     bounces at their own time inside the substep (impacts.cpp)
 //     kick        v += h a, L += h torque; damping exact
 //     warm start  the impulses of the last substep
-//     solve       one pass or more (velocity_iterations), overlap worked off softly
+//     solve       one pass, overlap worked off softly
 //     drift       dp += h v; rotation by the torque-free flow with L fixed
 //     relax       one pass without the bias: the velocities that push out overlap do not stay
+//                 (as many of each as velocity_iterations says)
 //     trapezoid   dp += theta (h/2)(v_start - v_end): free fall, sliding and rolling become exact
 //     to
 //                 second order; theta is the share of the substep during which contacts slid
@@ -252,6 +253,7 @@ void fly_body(WorldState& world, std::uint32_t i) {
 
 void run_substeps(WorldState& world) {
   const int extra_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses - 1 : 0;
+  const int iterations = world.settings.velocity_iterations;
   const bool joints = !world.joints.empty();
   const bool newton = world.newton != nullptr && world.newton->count > 0;
   const bool worst_first = resolves_worst_first(world);
@@ -297,7 +299,7 @@ void run_substeps(WorldState& world) {
       if (ledger) charge_warm_start(world, row, energy, before, u);
     });
     if (ledger) charge(world, &EnergyLedger::normal);
-    for (int i = 0; i < world.settings.velocity_iterations; ++i) {
+    for (int i = 0; i < iterations; ++i) {
       const bool first = i == 0;
       if (ledger && !first) charge(world, &EnergyLedger::normal);
       if (joints) solve_joints(world);
@@ -328,6 +330,7 @@ void run_substeps(WorldState& world) {
           only_deep);
     };
     for (int i = 0; i < extra_passes; ++i) relax(false, true);
+    for (int i = 1; i < iterations; ++i) relax(false, false);
     relax(true, false);
     if (worst_first) resolve_worst_first(world);
     if (ledger) charge(world, &EnergyLedger::normal);

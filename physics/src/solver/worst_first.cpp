@@ -20,6 +20,7 @@
 #include "solver/contact_kernel.h"
 #include "solver/row_velocities.h"
 #include "solver/turned_rows.h"
+#include "world/forced.h"
 #include "world/ledger_charges.h"
 #include "world/world_state.h"
 
@@ -256,7 +257,7 @@ class Resolver {
 }  // namespace
 
 bool resolves_worst_first(const WorldState& world) {
-  return world.settings.contact_solver == ContactSolver::WorstFirst;
+  return solver_of(world.settings) == ContactSolver::WorstFirst;
 }
 
 void resolve_worst_first(WorldState& world) {
