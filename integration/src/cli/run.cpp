@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/forcing.h"
 #include "cli/progress_bar.h"
 #include "cli/read_number.h"
 #include "cli/recording_file.h"
@@ -46,7 +47,7 @@ std::string apply(const RunOptions& options, assets::Scene& scene) {
                                     : *options.solver == "auto" ? ContactSolver::Auto
                                                                 : ContactSolver::SoftStep;
   }
-  return {};
+  return force(options.forced, scene.settings);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
