@@ -35,6 +35,28 @@ void read_step(const JsonNode& node, SceneStep& step, Problems& problems) {
   in.number("duration", step.duration, kDurationRange);
 }
 
+namespace {
+
+// What the plan may force of an item: off for all of these, on for some.
+void read_forced(const JsonNode& node, PlanChoices& forced, Problems& problems) {
+  const ObjectReader in(node, "forced", keys::kForced, problems);
+  if (!in.is_object()) return;
+  for (const std::string_view key : keys::kForced) {
+    std::size_t place = 0;
+    const std::optional<PlanItem> item = plan_item_of(key);
+    if (!item || !in.choice(key, kForcedChoices, place)) continue;
+    const Choice choice = static_cast<Choice>(place);
+    if (may_force(*item, choice)) {
+      forced.set(*item, choice);
+    } else {
+      problems.add(in.line_of(key), "'" + std::string(key) + "' cannot be forced on",
+                   "the scene itself has to ask for it");
+    }
+  }
+}
+
+}  // namespace
+
 void read_settings(const JsonNode& node, WorldSettings& settings, Problems& problems) {
   const ObjectReader in(node, "settings", keys::kSettings, problems);
   if (!in.is_object()) return;
@@ -50,6 +72,7 @@ void read_settings(const JsonNode& node, WorldSettings& settings, Problems& prob
   in.flag("warm_starting", settings.warm_starting);
   in.flag("sleeping", settings.sleeping);
   in.number("time_to_sleep", settings.time_to_sleep, kNotNegative);
+  if (const JsonNode* forced = in.find("forced")) read_forced(*forced, settings.forced, problems);
   const Status status = check(settings);
   if (!status.ok() && problems.empty()) {
     problems.add(node.line, std::string("settings: ") + status.message, "");

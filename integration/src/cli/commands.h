@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace plumb::cli {
 
@@ -18,8 +19,14 @@ enum ExitCode : int {
 inline constexpr std::array<const char*, 4> kSolverWords{"soft_step", "newton", "auto",
                                                          "worst_first"};
 
+// Items of the plan that the user forces off and on, by name.
+struct ForcedNames {
+  std::vector<std::string> off, on;
+};
+
 struct RunOptions {
   std::string scene;
+  ForcedNames forced;
   std::string output;                 // empty: nothing is recorded
   std::optional<std::int64_t> steps;  // >= 0
   std::optional<std::string> dt;      // [s] "0.01" or "1/60"
@@ -52,7 +59,9 @@ int inspect_mesh(const MeshOptions& options);
 int print_effect_prices(const std::string& csv);
 // What each costs against the number of bodies that carry it; `chart` names an .svg or .png.
 int print_effect_scaling(const std::string& csv, const std::string& chart);
-int print_plan(const std::string& scene);
+// Whether the plan chooses rightly, over these scenes and many drawn by lot.
+int audit_plans(const std::vector<std::string>& scenes, const std::string& csv);
+int print_plan(const std::string& scene, const ForcedNames& forced);
 
 int replay_info(const std::string& recording);
 int replay_verify(const std::string& recording, int threads);

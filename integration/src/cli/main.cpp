@@ -34,6 +34,13 @@ CLI::Validator not_empty() {
           ""};
 }
 
+void add_forced(CLI::App& command, ForcedNames& forced) {
+  command.add_option("--without", forced.off, "Item of the plan to leave out, such as gyroscopic")
+      ->allow_extra_args(false);
+  command.add_option("--with", forced.on, "Item of the plan to run everywhere, such as look_ahead")
+      ->allow_extra_args(false);
+}
+
 void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
   CLI::App* run = app.add_subcommand("run", "Simulate a scene; record it with -o");
   run->add_option("SCENE", options.scene, "Scene file (JSON)")->required();
@@ -47,6 +54,7 @@ void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
   run->add_option("--substeps", options.substeps, "Solver steps within one step (1 to 64)");
   run->add_option("--solver", options.solver, "Contact solver instead of the scene's")
       ->check(CLI::IsMember(std::vector<std::string>(kSolverWords.begin(), kSolverWords.end())));
+  add_forced(*run, options.forced);
   run->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
@@ -87,7 +95,8 @@ void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
 
 struct EffectsOptions {
   std::string csv, chart;
-  bool scaling = false;
+  bool scaling = false, audit = false;
+  std::vector<std::string> scenes;
 };
 
 void add_effects(CLI::App& app, EffectsOptions& options, int& exit_code) {
@@ -98,7 +107,18 @@ void add_effects(CLI::App& app, EffectsOptions& options, int& exit_code) {
   effects->add_option("--chart", options.chart, "Draw it to this file, .svg or .png")
       ->check(not_empty())
       ->needs(scaling);
+  CLI::Option* audit =
+      effects
+          ->add_flag("--audit", options.audit,
+                     "Whether the plan chooses rightly: leave each item out and compare")
+          ->excludes(scaling);
+  effects->add_option("SCENE", options.scenes, "Scene files to audit beside those drawn by lot")
+      ->needs(audit);
   effects->callback([&] {
+    if (options.audit) {
+      exit_code = audit_plans(options.scenes, options.csv);
+      return;
+    }
     exit_code = options.scaling ? print_effect_scaling(options.csv, options.chart)
                                 : print_effect_prices(options.csv);
   });
@@ -160,7 +180,9 @@ int program(int argc, char** argv) {
   add_mesh(app, mesh, exit_code);
   CLI::App* plan = app.add_subcommand("plan", "Which effects and stages a scene pays for, and why");
   plan->add_option("SCENE", plan_scene, "Scene file (JSON)")->required();
-  plan->callback([&] { exit_code = print_plan(plan_scene); });
+  ForcedNames plan_forced;
+  add_forced(*plan, plan_forced);
+  plan->callback([&] { exit_code = print_plan(plan_scene, plan_forced); });
   EffectsOptions effects;
   add_effects(app, effects, exit_code);
   add_replay(app, replay, exit_code);

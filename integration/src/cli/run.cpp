@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/forcing.h"
 #include "cli/progress_bar.h"
 #include "cli/read_number.h"
 #include "cli/recording_file.h"
@@ -46,7 +47,7 @@ std::string apply(const RunOptions& options, assets::Scene& scene) {
     const auto word = std::find(kSolverWords.begin(), kSolverWords.end(), *options.solver);
     scene.settings.contact_solver = static_cast<ContactSolver>(word - kSolverWords.begin());
   }
-  return {};
+  return force(options.forced, scene.settings);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

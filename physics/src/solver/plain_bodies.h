@@ -19,7 +19,7 @@ inline bool is_plain(const WorldState& world, std::uint32_t i) {
   return mass.mass > Real(0) && mass.angular_locks == 0 && !(force.linear_damping > Real(0)) &&
          !(force.angular_damping > Real(0)) &&
          rotation_of(world.settings) == RotationMethod::Exact &&
-         !world.settings.forced.off(PlanItem::Gyroscopic);
+         !lacks_gyroscopic_term(world.settings, mass);
 }
 
 class PlainBodies {

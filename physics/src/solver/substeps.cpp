@@ -11,6 +11,7 @@
 //     trapezoid   dp += theta (h/2)(v_start - v_end): free fall, sliding and rolling become exact
 //     to
 //                 second order; theta is the share of the substep during which contacts slid
+#include <algorithm>
 #include <cmath>
 
 #include "effects/effect_world.h"
@@ -125,7 +126,7 @@ void finish_body(WorldState& world, std::uint32_t i) {
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
-  if (turning_keeps_momentum(world.settings))
+  if (turning_keeps_momentum(world.settings, world.bodies.mass[i]))
     delta.dq = turned_further(
         delta.dq,
         weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost));
@@ -206,6 +207,42 @@ void store_impulses(WorldState& world) {
                  }
                });
   if (calls.listens()) newton::hear_calls(world, called.data());
+}
+
+bool carried_something(const Contact& contact) {
+  for (int i = 0; i < contact.manifold.count; ++i)
+    if (contact.step_normal_impulse[i] > Real(0)) return true;
+  return false;
+}
+
+// Bodies of which the contacts were relaxed more often: those of the accurate solver need none of
+// it.
+std::uint32_t bodies_relaxed_more(WorldState& world) {
+  StepList<std::uint8_t> relaxed(world.bodies.awake_end, 0, &world.memory);
+  for (const ColorRange color : world.colors)
+    for (std::uint32_t k = color.begin; k < color.end; ++k) {
+      const ContactRow<Real>& row = world.rows[k];
+      for (const std::uint32_t body : {row.body_a, row.body_b})
+        if (world.overlaps_deeply[body] != 0) relaxed[body] = 1;
+    }
+  return static_cast<std::uint32_t>(std::count(relaxed.begin(), relaxed.end(), std::uint8_t{1}));
+}
+
+// Of what was made ready for this step, the report counts what was of use.
+void count_what_acted(WorldState& world) {
+  StepReport& report = world.report;
+  if (report.looked_ahead > 0) {
+    report.looked_ahead = 0;
+    for (const Contact& contact : world.contacts)
+      if (length_squared(contact.advance) > Real(0) && carried_something(contact))
+        ++report.looked_ahead;
+  }
+  report.deep_bodies = world.deep_overlap ? bodies_relaxed_more(world) : 0;
+  const auto count = [&](std::uint32_t row) {
+    if (carried_something(world.contacts[world.rows[row].contact])) ++report.fast_turning;
+  };
+  for (const TurnedRow& turned : world.turned_rows) count(turned.row);
+  for (const std::uint32_t row : world.spun_rows) count(row);
 }
 
 bool flies(const SubstepBody& s, const BodyMass& mass) {
@@ -343,6 +380,7 @@ void run_substeps(WorldState& world) {
   if (effects) end_effects(world);
   empty_blocks(world);
   store_impulses(world);
+  count_what_acted(world);
   if (joints) store_joints(world);
   if (newton) report_newton_islands(world);
   world.last_h = world.h;

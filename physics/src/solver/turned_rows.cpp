@@ -17,6 +17,12 @@ Real fast_turn(const WorldState& world) {
   return threshold(world.settings, PlanItem::FastTurns, tolerance::kFastTurn);
 }
 
+bool has_acted(const ContactRow<Real>& row) {
+  for (int i = 0; i < row.count; ++i)
+    if (row.points[i].impulse_sum > Real(0)) return true;
+  return false;
+}
+
 bool is_isotropic(const BodyMass& m) {
   return m.moments.x == m.moments.y && m.moments.y == m.moments.z;
 }
@@ -108,7 +114,6 @@ void find_turned_rows(WorldState& world) {
       row.turned = static_cast<std::uint32_t>(world.turned_rows.size());
       world.turned_rows.push_back({i, world.delta[row.body_a], world.delta[row.body_b]});
     }
-  world.report.fast_turning = static_cast<std::uint32_t>(world.turned_rows.size());
 }
 
 void renew_turned_rows(WorldState& world) {
@@ -145,7 +150,7 @@ void renew_bouncing_rows(WorldState& world) {
   for (const std::uint32_t k : world.bouncing_rows) {
     ContactRow<Real>& row = world.rows[k];
     if (turns[row.body_a] == 0 && turns[row.body_b] == 0) continue;
-    ++world.report.fast_turning;
+    if (has_acted(row)) ++world.report.fast_turning;
     if (turns[row.body_a] != 0) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
@@ -190,7 +195,6 @@ bool renew_spun_rows(WorldState& world) {
   if (found) {
     empty_blocks(world);
     list_spun_rows(world);
-    world.report.fast_turning += static_cast<std::uint32_t>(world.spun_rows.size());
     fill_blocks(world);
   }
   if (world.spun_rows.empty()) return found;

@@ -33,7 +33,7 @@ Sweep sweep_of_step(const WorldState& world, std::uint32_t dense, PosVec referen
   const bool steady = mass.angular_locks != 0 || force.angular_damping > Real(0) ||
                       length_squared(force.torque) > Real(0) ||
                       rotation_of(world.settings) != RotationMethod::Exact ||
-                      !has_gyroscopic_term(world.settings) ||
+                      lacks_gyroscopic_term(world.settings, mass) ||
                       classify_inertia(mass.inverse_moments) == RotationKind::Isotropic;
   if (steady) {
     sweep.turn = turn_between(sweep.start, turned * sweep.start, expected);

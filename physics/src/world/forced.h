@@ -59,13 +59,18 @@ inline RotationMethod rotation_of(const WorldSettings& settings) {
              ? RotationMethod::Exact
              : settings.rotation;
 }
+// Whether a body has a gyroscopic term that is forced off.
+inline bool lacks_gyroscopic_term(const WorldSettings& settings, const BodyMass& mass) {
+  return settings.forced.off(PlanItem::Gyroscopic) &&
+         classify_inertia(mass.moments) != RotationKind::Isotropic;
+}
 // Whether turning leaves the angular momentum as it is.
-inline bool turning_keeps_momentum(const WorldSettings& settings) {
-  return !settings.forced.off(PlanItem::Gyroscopic) && keeps_momentum(rotation_of(settings));
+inline bool turning_keeps_momentum(const WorldSettings& settings, const BodyMass& mass) {
+  return !lacks_gyroscopic_term(settings, mass) && keeps_momentum(rotation_of(settings));
 }
 // Turns a body that nothing acts on for a time h [s].
 inline void turn(const WorldSettings& settings, const BodyMass& mass, Rotation& q, Vec& L, Real h) {
-  if (settings.forced.off(PlanItem::Gyroscopic)) {
+  if (lacks_gyroscopic_term(settings, mass)) {
     turn_steadily(mass, q, L, h);
   } else {
     turn_freely(rotation_of(settings), mass, q, L, h);

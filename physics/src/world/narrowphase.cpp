@@ -376,8 +376,6 @@ void spread_depth(WorldState& world) {
       if (b != 0) deep[b] = 1;
     }
   }
-  world.report.deep_bodies =
-      static_cast<std::uint32_t>(std::count(deep.begin(), deep.end(), std::uint8_t{1}));
 }
 
 void report_contacts(WorldState& world) {

@@ -64,7 +64,7 @@ std::string of(std::uint32_t part, std::uint32_t whole, const char* what) {
   return std::to_string(part) + " of " + std::to_string(whole) + " " + what;
 }
 std::string pairs(std::uint32_t count, const char* what) {
-  return std::to_string(count) + " pairs that may touch " + what;
+  return std::to_string(count) + " pairs that touch " + what;
 }
 
 std::string why_accurate(const WorldState& world, const PlanTally& t) {

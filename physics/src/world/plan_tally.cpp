@@ -88,12 +88,22 @@ void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& touc
 }
 
 void tally_contacts(const WorldState& world, const Pair& pair, Real dt, PairTally& t) {
-  Real pressed = 0;  // [N s]
+  Real pressed = 0;     // [N s]
+  bool pushes = false;  // what overlaps is pushed out, even where no impulse is left of it
   for (const Contact& contact : contacts_of(pair, world.contacts))
     for (int i = 0; i < contact.manifold.count; ++i) {
       pressed += contact.step_normal_impulse[i];
-      if (-contact.manifold.points[i].separation > tolerance::kDeepSlops * pair.slop) ++t.deep;
+      const Real depth = -contact.manifold.points[i].separation;
+      if (depth > tolerance::kDeepSlops * pair.slop) ++t.deep;
+      pushes = pushes || depth > Real(0);
     }
+  if (pair.restitution > Real(0)) ++t.bouncing;
+  if (pair.adhesion > Real(0)) ++t.adhesive;
+  if (!(pressed > Real(0)) && !pushes) return;
+  if (pair.friction > Real(0)) ++t.frictional;
+  if (pair.rolling > Real(0) || pair.torsional > Real(0)) ++t.turning;
+  if (pair.driven) ++t.driven;
+  if (pair.grained) ++t.grained;
   const Real push = pressed / dt;
   t.push = std::max(t.push, static_cast<double>(push));
   t.friction = std::max(t.friction, pair.friction * push);
@@ -107,12 +117,6 @@ void tally_pairs(const WorldState& world, std::vector<std::uint8_t>& touching, R
     if (stored.sensor) continue;
     const Pair& pair = forced ? without_forcing(world, stored) : stored;
     ++t.pairs;
-    if (pair.friction > Real(0)) ++t.frictional;
-    if (pair.restitution > Real(0)) ++t.bouncing;
-    if (pair.rolling > Real(0) || pair.torsional > Real(0)) ++t.turning;
-    if (pair.driven) ++t.driven;
-    if (pair.grained) ++t.grained;
-    if (pair.adhesion > Real(0)) ++t.adhesive;
     t.restitution = std::max(t.restitution, pair.restitution);
     t.adhesion = std::max(t.adhesion, pair.adhesion);
     const BodyInfo &a = world.bodies.info[pair.body_a], &b = world.bodies.info[pair.body_b];

@@ -34,6 +34,7 @@ struct BodyTally {
 struct PairTally {
   std::uint32_t pairs = 0, touching = 0;
   std::uint32_t swept = 0;  // move by more than a fraction of their thickness, seen from each other
+  // Of those that press on each other (adhesive, bouncing: touch).
   std::uint32_t frictional = 0, bouncing = 0, turning = 0, driven = 0, grained = 0, adhesive = 0;
   std::uint32_t deep = 0;  // contacts
   double push = 0;         // [N] the greatest normal force of a pair in the last step

@@ -53,6 +53,7 @@ class Recorder::Run {
 
  private:
   void copy(const StepView& view, detail::Frame& frame);
+  void copy_plan_changes(const PhysicsWorld& world, detail::Frame& frame);
   // `world`: where it may be looked at; null on the encoding thread.
   void encode(detail::Frame& frame, const PhysicsWorld* world);
   void read_image(detail::Frame& frame) const;
@@ -79,6 +80,7 @@ class Recorder::Run {
   int rows_ = 0;
 
   detail::EffectList effects_;    // of the stepping thread
+  std::uint64_t planned_ = 0;     // items of the plan as told last
   bool effects_changed_ = false;  // and no frame has told it yet
   bool attached_ = false;
   std::uint64_t last_step_ = 0;
@@ -164,7 +166,10 @@ void Recorder::Run::attach(const PhysicsWorld& world) {
   replay_.send_snapshot(writer_, world.save(), frame.number, frame.time);
   if (options_.visuals) encode_scene(frame, &world);
   if (options_.body_states) bodies_.add(frame);
-  if (options_.text_log) text_log_.add_plan(world, frame);
+  if (options_.text_log) {
+    planned_ = world.planned_items();
+    text_log_.add_plan(world.plan(), frame);
+  }
   if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
 }
 
@@ -217,6 +222,7 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   if (options_.visuals) effects_changed_ |= effects_.follow(frame.inputs, world);
   if (!frame.moved) return;
   if (effects_changed_) give_effects(frame);
+  if (options_.text_log) copy_plan_changes(world, frame);
   world.copy_image(frame.image);
   frame.profiled = world.settings().profiling;
   frame.ledger = world.diagnostics().ledger;
@@ -224,6 +230,16 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   if (!frame.has_snapshot) return;
   steps_since_snapshot_ = 0;
   world.save(frame.snapshot);
+}
+
+// Words are made only for what changed.
+void Recorder::Run::copy_plan_changes(const PhysicsWorld& world, detail::Frame& frame) {
+  const std::uint64_t planned = world.planned_items(), changed = planned ^ planned_;
+  planned_ = planned;
+  frame.plan.clear();
+  if (changed == 0) return;
+  for (PlanDecision& decision : world.plan().decisions)
+    if ((changed & bit_of(decision.item)) != 0) frame.plan.push_back(std::move(decision));
 }
 
 void Recorder::Run::step(const StepView& view) {
@@ -317,7 +333,7 @@ void Recorder::Run::encode(detail::Frame& frame, const PhysicsWorld* world) {
     if (!frame.moved) return;
     read_image(frame);
     if (options_.visuals) encode_scene(frame, world);
-    if (options_.text_log && world) text_log_.add_plan(*world, frame);
+    if (options_.text_log) text_log_.add_plan_changes(frame);
     if (options_.contacts) contacts_.add(frame);
     if (options_.plots) add_plots(frame);
     if (options_.body_states) bodies_.add(frame);
