@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../joints/joint_scenes.h"
+#include "support/measure.h"
 #include "support/scenes.h"
 
 namespace plumb::inline PLUMB_ABI {

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "support/measure.h"
 #include "support/scenes.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -46,7 +47,7 @@ TEST(FreeFlightPairs, WhateverOverlapsHasAContact) {
     PhysicsWorld world(no_gravity());
     const std::vector<BodyId> bodies = add_swarm(world, seed);
     Random random(100 + seed);
-    for (int step = 0; step < 300; ++step) {
+    for (int step = 0; step < 600; ++step) {
       if (step % 50 == 49) {  // a new course for some
         for (int k = 0; k < 5; ++k) {
           const BodyId body = bodies[static_cast<std::size_t>(random.uniform(0, 59.9))];
