@@ -91,6 +91,26 @@ double take_over(Island& island) {
   return lack;
 }
 
+// Where the solve ends early, discs may have left friction with a point that presses no more.
+void pull_into_cones(Island& island) {
+  for (IslandContact& c : island.contacts) {
+    double load = 0;
+    for (int i = 0; i < c.count; ++i) {
+      IslandPoint& p = c.points[i];
+      p.center = project_cone(c.mu, p.center).g;
+      load += p.center.x;
+    }
+    if (!c.resists_turning) continue;
+    const double spin = c.torsional * load, roll = c.rolling * load;
+    c.turn_center.x = std::clamp(c.turn_center.x, -spin, spin);
+    const double size =
+        std::sqrt(c.turn_center.y * c.turn_center.y + c.turn_center.z * c.turn_center.z);
+    if (!(size > roll)) continue;
+    c.turn_center.y *= roll / size;
+    c.turn_center.z *= roll / size;
+  }
+}
+
 // Whether the impulses are so much larger than what acts that their sum has no digits left.
 // Friction can hold a jammed body under any stress: where overlap is to be worked off against that,
 // there may be no velocities that do it, and impulses that cancel grow without bound.
@@ -104,7 +124,7 @@ bool impulses_cancel(const Island& island) {
   return !(kEpsilon * given <= tolerance::kMomentum * acts);
 }
 
-// M v = p + J^T l, with no part of the momentum lost to the tolerance of the solve.
+// M v = p + J^T l, with no part of the momentum lost to the tolerance of the solve, or to its end.
 void velocities_from_impulses(Island& island) {
   std::vector<Twist>& sum = island.gradient;
   for (std::size_t i = 0; i < island.bodies.size(); ++i) sum[i] = island.bodies[i].p;
@@ -188,6 +208,7 @@ void solve(Island& island) {
         std::min(tolerance::kStepLength, tolerance::kStepGrowth * island.step_length);
     island.has_factor = false;
   }
+  if (!done) pull_into_cones(island);
   island.fell_back = !found || island.lack > tolerance::kNotConverged * island.speed;
   if (island.solves_positions && impulses_cancel(island)) {
     island.v = island.v_rest;  // the overlap waits until the body is free
