@@ -55,6 +55,7 @@ TEST(SceneSchema, KnowsTheWordsOfTheLoader) {
   EXPECT_EQ(enum_of("body", "type"), words(scene_keys::kMotionTypes));
   EXPECT_EQ(enum_of("settings", "rotation"), words(scene_keys::kRotationMethods));
   EXPECT_EQ(enum_of("settings", "contact_solver"), words(scene_keys::kContactSolvers));
+  EXPECT_EQ(enum_of("settings", "friction_cone"), words(scene_keys::kFrictionCones));
   EXPECT_EQ(enum_of("mesh", "up"), words(scene_keys::kAxes));
   EXPECT_EQ(enum_of("mesh", "collision"), words(scene_keys::kCollisions));
   EXPECT_EQ(enum_of("mesh", "collision"), words(scene_keys::kCollisions));

@@ -182,6 +182,7 @@ TEST_F(AccuracyProgram, RefusesBadInputWithOneLine) {
        {std::string("F99"), std::string("F6 --dt 0"), std::string("F6 --dt 1/60,x"),
         std::string("F6 --substeps 65"), std::string("F6 --substeps 0"),
         std::string("F6 --rotation Euler"), std::string("C1 --solver Gauss"),
+        std::string("C18 --iterations 65"), std::string("C2 --friction 5-facets"),
         std::string("F6 --precision f16"), std::string("F6 --warm-start maybe"),
         std::string("F6 --error -1"), std::string("F6 --error 1e-3x"),
         std::string("F6 --budget 5min"), "F6" + in_file,

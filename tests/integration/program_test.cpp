@@ -48,6 +48,7 @@ TEST_F(Program, TellsBadInput) {
            "run " + scene + " --dt nan",
            "run " + scene + " --substeps 0",
            "run " + scene + " --substeps 65",
+           "run " + scene + " --ledger",  // shows in a recording only
            "run " + scene + " --threads -1",
            "run " + scene + " --threads 1000",
            std::string("mesh"),
