@@ -17,10 +17,14 @@ Real fast_turn(const WorldState& world) {
   return threshold(world.settings, PlanItem::FastTurns, tolerance::kFastTurn);
 }
 
-bool has_acted(const ContactRow<Real>& row) {
+// The report counts how often contacts that matter are told anew: that have pushed in this step, or
+// overlap.
+void note_telling(WorldState& world, const ContactRow<Real>& row) {
   for (int i = 0; i < row.count; ++i)
-    if (row.points[i].impulse_sum > Real(0)) return true;
-  return false;
+    if (row.points[i].impulse_sum > Real(0) || row.points[i].separation < Real(0)) {
+      ++world.report.fast_turning;
+      return;
+    }
 }
 
 bool is_isotropic(const BodyMass& m) {
@@ -121,7 +125,10 @@ void renew_turned_rows(WorldState& world) {
     for (const std::uint32_t body : {world.rows[turned.row].body_a, world.rows[turned.row].body_b})
       if (world.substep[body].turned && !is_isotropic(world.bodies.mass[body]))
         turn_inertia(world, body);
-  for (TurnedRow& turned : world.turned_rows) renew(world, turned);
+  for (TurnedRow& turned : world.turned_rows) {
+    renew(world, turned);
+    note_telling(world, world.rows[turned.row]);
+  }
 }
 
 void renew_bouncing_rows(WorldState& world) {
@@ -150,7 +157,7 @@ void renew_bouncing_rows(WorldState& world) {
   for (const std::uint32_t k : world.bouncing_rows) {
     ContactRow<Real>& row = world.rows[k];
     if (turns[row.body_a] == 0 && turns[row.body_b] == 0) continue;
-    if (has_acted(row)) ++world.report.fast_turning;
+    note_telling(world, row);
     if (turns[row.body_a] != 0) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
@@ -201,6 +208,7 @@ bool renew_spun_rows(WorldState& world) {
     if (world.substep[i].spun) turn_inertia(world, i);
   for (const std::uint32_t k : world.spun_rows) {
     ContactRow<Real>& row = world.rows[k];
+    note_telling(world, row);
     if (world.substep[row.body_a].spun) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (world.substep[row.body_b].spun) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
