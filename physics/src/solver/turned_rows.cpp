@@ -17,16 +17,6 @@ Real fast_turn(const WorldState& world) {
   return threshold(world.settings, PlanItem::FastTurns, tolerance::kFastTurn);
 }
 
-// The report counts how often contacts that matter are told anew: that have pushed in this step, or
-// overlap.
-void note_telling(WorldState& world, const ContactRow<Real>& row) {
-  for (int i = 0; i < row.count; ++i)
-    if (row.points[i].impulse_sum > Real(0) || row.points[i].separation < Real(0)) {
-      ++world.report.fast_turning;
-      return;
-    }
-}
-
 bool is_isotropic(const BodyMass& m) {
   return m.moments.x == m.moments.y && m.moments.y == m.moments.z;
 }
@@ -127,7 +117,7 @@ void renew_turned_rows(WorldState& world) {
         turn_inertia(world, body);
   for (TurnedRow& turned : world.turned_rows) {
     renew(world, turned);
-    note_telling(world, world.rows[turned.row]);
+    ++world.report.fast_turning;
   }
 }
 
@@ -157,7 +147,7 @@ void renew_bouncing_rows(WorldState& world) {
   for (const std::uint32_t k : world.bouncing_rows) {
     ContactRow<Real>& row = world.rows[k];
     if (turns[row.body_a] == 0 && turns[row.body_b] == 0) continue;
-    note_telling(world, row);
+    ++world.report.fast_turning;
     if (turns[row.body_a] != 0) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
@@ -208,7 +198,7 @@ bool renew_spun_rows(WorldState& world) {
     if (world.substep[i].spun) turn_inertia(world, i);
   for (const std::uint32_t k : world.spun_rows) {
     ContactRow<Real>& row = world.rows[k];
-    note_telling(world, row);
+    ++world.report.fast_turning;
     if (world.substep[row.body_a].spun) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (world.substep[row.body_b].spun) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
