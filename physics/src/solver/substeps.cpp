@@ -238,6 +238,7 @@ void count_what_acted(WorldState& world) {
         ++report.looked_ahead;
   }
   report.deep_bodies = world.deep_overlap ? bodies_relaxed_more(world) : 0;
+  // Contacts that pushed after they were last told.
   const auto count = [&](std::uint32_t row) {
     if (carried_something(world.contacts[world.rows[row].contact])) ++report.fast_turning;
   };

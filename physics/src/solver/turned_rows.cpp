@@ -17,12 +17,6 @@ Real fast_turn(const WorldState& world) {
   return threshold(world.settings, PlanItem::FastTurns, tolerance::kFastTurn);
 }
 
-bool has_acted(const ContactRow<Real>& row) {
-  for (int i = 0; i < row.count; ++i)
-    if (row.points[i].impulse_sum > Real(0)) return true;
-  return false;
-}
-
 bool is_isotropic(const BodyMass& m) {
   return m.moments.x == m.moments.y && m.moments.y == m.moments.z;
 }
@@ -121,7 +115,10 @@ void renew_turned_rows(WorldState& world) {
     for (const std::uint32_t body : {world.rows[turned.row].body_a, world.rows[turned.row].body_b})
       if (world.substep[body].turned && !is_isotropic(world.bodies.mass[body]))
         turn_inertia(world, body);
-  for (TurnedRow& turned : world.turned_rows) renew(world, turned);
+  for (TurnedRow& turned : world.turned_rows) {
+    renew(world, turned);
+    ++world.report.fast_turning;
+  }
 }
 
 void renew_bouncing_rows(WorldState& world) {
@@ -150,7 +147,7 @@ void renew_bouncing_rows(WorldState& world) {
   for (const std::uint32_t k : world.bouncing_rows) {
     ContactRow<Real>& row = world.rows[k];
     if (turns[row.body_a] == 0 && turns[row.body_b] == 0) continue;
-    if (has_acted(row)) ++world.report.fast_turning;
+    ++world.report.fast_turning;
     if (turns[row.body_a] != 0) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
@@ -202,6 +199,7 @@ bool renew_spun_rows(WorldState& world) {
     if (world.substep[i].spun) turn_inertia(world, i);
   for (const std::uint32_t k : world.spun_rows) {
     ContactRow<Real>& row = world.rows[k];
+    ++world.report.fast_turning;
     if (world.substep[row.body_a].spun) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (world.substep[row.body_b].spun) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);

@@ -59,10 +59,16 @@ inline RotationMethod rotation_of(const WorldSettings& settings) {
              ? RotationMethod::Exact
              : settings.rotation;
 }
+// Moments that differ by less than this [-] do so by rounding: w x I w is then nothing.
+inline constexpr Real kSameMoments = Real(64) * std::numeric_limits<Real>::epsilon();
+inline bool is_round(const BodyMass& mass) {
+  const Vec m = mass.moments;
+  const Real most = larger_of(m.x, larger_of(m.y, m.z));
+  return size_of(m.x - m.y) <= kSameMoments * most && size_of(m.y - m.z) <= kSameMoments * most;
+}
 // Whether a body has a gyroscopic term that is forced off.
 inline bool lacks_gyroscopic_term(const WorldSettings& settings, const BodyMass& mass) {
-  return settings.forced.off(PlanItem::Gyroscopic) &&
-         classify_inertia(mass.moments) != RotationKind::Isotropic;
+  return settings.forced.off(PlanItem::Gyroscopic) && !is_round(mass);
 }
 // Whether turning leaves the angular momentum as it is.
 inline bool turning_keeps_momentum(const WorldSettings& settings, const BodyMass& mass) {

@@ -23,6 +23,9 @@ constexpr Real kUsualStep = Real(1.0 / 60);
 // touches something has the momentum that its weight brings about in a step for company.
 constexpr Real kSteadyTurn = Real(1e-6);
 
+// What overlaps by more than this part of a slop [-] is pushed out by enough to be rubbed.
+constexpr Real kPushedOut = Real(0.1);
+
 bool turns_steadily(const WorldState& world, const BodyInfo& info, bool touches, Real dt,
                     Real gyroscopic_torque) {
   const BodyMass& m = world.bodies.mass[info.dense];
@@ -95,7 +98,7 @@ void tally_contacts(const WorldState& world, const Pair& pair, Real dt, PairTall
       pressed += contact.step_normal_impulse[i];
       const Real depth = -contact.manifold.points[i].separation;
       if (depth > tolerance::kDeepSlops * pair.slop) ++t.deep;
-      pushes = pushes || depth > Real(0);
+      pushes = pushes || depth > kPushedOut * pair.slop;
     }
   if (pair.restitution > Real(0)) ++t.bouncing;
   if (pair.adhesion > Real(0)) ++t.adhesive;
