@@ -60,6 +60,32 @@ std::string look_of_series(std::size_t i, const std::string& label) {
 // Plumb needs telling only where there are others.
 std::string whose(const CaseResult& result) { return result.peers.empty() ? "" : "Plumb: "; }
 
+// Published figures, a curve an engine with the same mark in both panels: over their time, where
+// one was given, or over their step.
+void add_published(Curves& curves, const CaseInfo& info, bool over_time) {
+  constexpr int kMarks[] = {1, 2, 3, 4, 8, 10};
+  std::vector<std::string> engines;
+  for (const Published& p : info.published)
+    if (std::find(engines.begin(), engines.end(), p.engine) == engines.end())
+      engines.push_back(p.engine);
+  for (std::size_t i = 0; i < engines.size(); ++i) {
+    std::string points, steps, note;
+    for (const Published& p : info.published) {
+      if (p.engine != engines[i] || (over_time && !(p.seconds > 0))) continue;
+      points += over_time
+                    ? point(p.seconds / info.body_seconds, std::sqrt(p.measure / info.measure))
+                    : line_of(p.dt, p.measure);
+      steps += (steps.empty() ? " " : ", ") + step_words(p.dt);
+      if (p.at_most) note = ": at most";
+    }
+    const int mark = note.empty() ? kMarks[i % std::size(kMarks)] : kAtMost;
+    curves.add("published" + std::to_string(i), points,
+               "with linespoints lw 2.5 ps 1.8 dt 3 pt " + std::to_string(mark) +
+                   " lc rgb 'black' title '" + engines[i] + (over_time ? steps + " s" : "") +
+                   ", published" + note + "'");
+  }
+}
+
 std::string panel(const CaseResult& result) {
   const CaseInfo& info = *result.info;
   Curves curves;
@@ -89,19 +115,8 @@ std::string panel(const CaseResult& result) {
     curves.add("peer" + std::to_string(i), points,
                look_of_peer(i, with_order(short_label_of(curve), curve.fit)));
   }
-  // What others have published, where the time is known too; on their machine, not on this one.
-  for (std::size_t i = 0; i < info.published.size(); ++i) {
-    const Published& p = info.published[i];
-    if (!(p.seconds > 0)) continue;
-    CellResult cell;
-    cell.cost = p.seconds / info.body_seconds;
-    cell.error = std::sqrt(p.measure / info.measure);
-    curves.add("published" + std::to_string(i), point(cell),
-               "with points pt " +
-                   std::to_string(p.at_most ? kAtMost : 1 + static_cast<int>(i % 4)) +
-                   " ps 1.8 lw 2.5 lc rgb 'black' title '" + p.engine + " " + step_words(p.dt) +
-                   " s, published" + (p.at_most ? ": at most" : "") + "'");
-  }
+  // On their machine, not on this one.
+  add_published(curves, info, true);
   points.clear();
   for (const CellResult* cell : front) points += point(*cell);
   curves.add("marks", points, "with points pt 6 ps 2 lw 1.5 lc rgb 'black' notitle");
@@ -132,22 +147,7 @@ std::string panel_by_step(const CaseResult& result) {
     curves.add("peer" + std::to_string(i), points,
                look_of_peer(i, short_label_of(result.peers[i])));
   }
-  std::vector<std::string> engines;
-  for (const Published& p : info.published)
-    if (std::find(engines.begin(), engines.end(), p.engine) == engines.end())
-      engines.push_back(p.engine);
-  for (std::size_t i = 0; i < engines.size(); ++i) {
-    std::string points, note;
-    for (const Published& p : info.published) {
-      if (p.engine != engines[i]) continue;
-      points += line_of(p.dt, p.measure);
-      if (p.at_most) note = ": at most";
-    }
-    curves.add("published" + std::to_string(i), points,
-               "with linespoints lw 2.5 ps 1.8 dt 3 pt " +
-                   std::to_string(note.empty() ? 1 + static_cast<int>(i % 4) : kAtMost) +
-                   " lc rgb 'black' title '" + engines[i] + ", published" + note + "'");
-  }
+  add_published(curves, info, false);
   return curves.panel("{/:Bold " + info.name + "}  as published", "step [s]",
                       "mean square [" + info.measure_unit + "]");
 }
