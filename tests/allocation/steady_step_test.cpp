@@ -76,6 +76,13 @@ TEST(SteadyStep, AllocatesNothingWhereBallsBounceForEver) {
   EXPECT_EQ(allocations(world, 400, 400), 0);
 }
 
+TEST(SteadyStep, AllocatesNothingInATowerThatTheAccurateSolverCarries) {
+  PhysicsWorld world(no_sleep());
+  scenes::build_column(world, {20, 1, 0.01});
+  EXPECT_EQ(allocations(world, 300, 200), 0);
+  EXPECT_EQ(world.last_report().newton_islands, 1u);
+}
+
 TEST(SteadyStep, AllocatesNothingInASwingingChain) {
   Chain chain(20, 10);
   EXPECT_EQ(allocations(chain.world, 200, 200), 0);

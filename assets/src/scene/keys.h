@@ -18,10 +18,30 @@ inline constexpr std::string_view kScene[] = {
     "settings", "materials",   "material_pairs", "meshes",      "heightfields",
     "bodies",   "joints",      "excluded_pairs", "effects"};
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
-inline constexpr std::string_view kSettings[] = {
-    "gravity",  "substeps",       "contact_frequency", "contact_damping_ratio",
-    "rotation", "contact_solver", "joint_order",       "warm_starting",
-    "sleeping", "time_to_sleep"};
+inline constexpr std::string_view kSettings[] = {"gravity",
+                                                 "substeps",
+                                                 "contact_frequency",
+                                                 "contact_damping_ratio",
+                                                 "rotation",
+                                                 "contact_solver",
+                                                 "velocity_iterations",
+                                                 "friction_cone",
+                                                 "joint_order",
+                                                 "warm_starting",
+                                                 "sleeping",
+                                                 "time_to_sleep",
+                                                 "forced"};
+// Items of the plan (plumb/plan_items.h), with '_' between their words.
+inline constexpr std::string_view kForced[] = {
+    "gyroscopic",       "friction",          "restitution",
+    "look_ahead",       "continuous",        "sleeping",
+    "rolling_friction", "surface_velocity",  "anisotropic_friction",
+    "adhesion",         "accurate_contacts", "fast_turns",
+    "deep_overlap",     "kept_manifolds",    "direct_joints",
+    "joint_substeps",   "point_gravity",     "force_field",
+    "thrust",           "explosion",         "drag",
+    "magnus",           "attractor",         "wind",
+    "aero_surface",     "buoyancy",          "spring"};
 inline constexpr std::string_view kMaterial[] = {
     "friction",           "restitution", "friction_rule", "restitution_rule", "rolling_friction",
     "torsional_friction", "kind",        "grain",         "grain_friction",   "adhesion"};
@@ -126,9 +146,10 @@ struct Named {
   std::string_view name;
   Keys keys;
 };
-inline constexpr std::array<Named, 36> kAll{{{"scene", kScene},
+inline constexpr std::array<Named, 37> kAll{{{"scene", kScene},
                                              {"step", kStep},
                                              {"settings", kSettings},
+                                             {"forced", kForced},
                                              {"material", kMaterial},
                                              {"material_pair", kMaterialPair},
                                              {"excluded_pair", kExcludedPair},
@@ -215,7 +236,10 @@ inline constexpr std::string_view kMotorModes[] = {"velocity", "position"};
 inline constexpr std::string_view kMotionTypes[] = {"static", "kinematic", "dynamic"};
 inline constexpr std::string_view kRotationMethods[] = {
     "exact", "implicit_gyro", "book", "explicit_gyro", "splitting", "splitting4", "rk4", "jacobi"};
-inline constexpr std::string_view kContactSolvers[] = {"soft_step", "newton", "auto"};
+inline constexpr std::string_view kContactSolvers[] = {"soft_step", "newton", "auto",
+                                                       "worst_first"};
+inline constexpr std::string_view kFrictionCones[] = {"exact", "four_facets", "eight_facets"};
+inline constexpr std::string_view kForcedChoices[] = {"automatic", "off", "on"};
 inline constexpr std::string_view kCombineRules[] = {"average", "geometric_mean", "minimum",
                                                      "maximum", "multiply"};
 inline constexpr std::string_view kAxes[] = {"x", "y", "z"};

@@ -10,7 +10,7 @@ namespace {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 // A quaternion typed with three decimals is that near to length one; farther off is a slip.
 constexpr double kUnitTolerance = 2e-3;
-constexpr int kMostSubsteps = 64;
+constexpr int kMostSubsteps = 64, kMostIterations = 64;
 // Steps shorter or longer than these, and longer runs, are slips of a unit.
 constexpr Range kStepRange{1e-9, 1e3, false};       // [s]
 constexpr Range kRateRange{1e-3, 1e9, false};       // [1/s]
@@ -35,6 +35,28 @@ void read_step(const JsonNode& node, SceneStep& step, Problems& problems) {
   in.number("duration", step.duration, kDurationRange);
 }
 
+namespace {
+
+// What the plan may force of an item: off for all of these, on for some.
+void read_forced(const JsonNode& node, PlanChoices& forced, Problems& problems) {
+  const ObjectReader in(node, "forced", keys::kForced, problems);
+  if (!in.is_object()) return;
+  for (const std::string_view key : keys::kForced) {
+    std::size_t place = 0;
+    const std::optional<PlanItem> item = plan_item_of(key);
+    if (!item || !in.choice(key, kForcedChoices, place)) continue;
+    const Choice choice = static_cast<Choice>(place);
+    if (may_force(*item, choice)) {
+      forced.set(*item, choice);
+    } else {
+      problems.add(in.line_of(key), "'" + std::string(key) + "' cannot be forced on",
+                   "the scene itself has to ask for it");
+    }
+  }
+}
+
+}  // namespace
+
 void read_settings(const JsonNode& node, WorldSettings& settings, Problems& problems) {
   const ObjectReader in(node, "settings", keys::kSettings, problems);
   if (!in.is_object()) return;
@@ -44,10 +66,13 @@ void read_settings(const JsonNode& node, WorldSettings& settings, Problems& prob
   in.number("contact_damping_ratio", settings.contact_damping_ratio, kNotNegative);
   in.choice("rotation", kRotationMethods, settings.rotation);
   in.choice("contact_solver", kContactSolvers, settings.contact_solver);
+  in.integer("velocity_iterations", settings.velocity_iterations, 1, kMostIterations);
+  in.choice("friction_cone", kFrictionCones, settings.friction_cone);
   in.integer("joint_order", settings.joint_order, 2, 4);
   in.flag("warm_starting", settings.warm_starting);
   in.flag("sleeping", settings.sleeping);
   in.number("time_to_sleep", settings.time_to_sleep, kNotNegative);
+  if (const JsonNode* forced = in.find("forced")) read_forced(*forced, settings.forced, problems);
   const Status status = check(settings);
   if (!status.ok() && problems.empty()) {
     problems.add(node.line, std::string("settings: ") + status.message, "");

@@ -61,17 +61,28 @@ Json json_of(const SceneExclusion& pair) {
   return out;
 }
 
+Json json_of(const PlanChoices& forced) {
+  Json out = Json::object();
+  for (const std::string_view key : scene::keys::kForced) {
+    const Choice choice = forced.of(*plan_item_of(key));
+    if (choice != Choice::Automatic) out[std::string(key)] = word(scene::kForcedChoices, choice);
+  }
+  return out;
+}
+
 Json json_of(const WorldSettings& settings) {
-  return {{"gravity", list(settings.gravity)},
-          {"substeps", settings.substeps},
-          {"contact_frequency", tidy(settings.contact_frequency)},
-          {"contact_damping_ratio", tidy(settings.contact_damping_ratio)},
-          {"rotation", word(scene::kRotationMethods, settings.rotation)},
-          {"contact_solver", word(scene::kContactSolvers, settings.contact_solver)},
-          {"joint_order", settings.joint_order},
-          {"warm_starting", settings.warm_starting},
-          {"sleeping", settings.sleeping},
-          {"time_to_sleep", tidy(settings.time_to_sleep)}};
+  Json out{{"gravity", list(settings.gravity)},
+           {"substeps", settings.substeps},
+           {"contact_frequency", tidy(settings.contact_frequency)},
+           {"contact_damping_ratio", tidy(settings.contact_damping_ratio)},
+           {"rotation", word(scene::kRotationMethods, settings.rotation)},
+           {"contact_solver", word(scene::kContactSolvers, settings.contact_solver)},
+           {"joint_order", settings.joint_order},
+           {"warm_starting", settings.warm_starting},
+           {"sleeping", settings.sleeping},
+           {"time_to_sleep", tidy(settings.time_to_sleep)}};
+  if (settings.forced != PlanChoices{}) out["forced"] = json_of(settings.forced);
+  return out;
 }
 
 Json json_of(const SceneMesh& mesh) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/setups/setup.h"
+
 namespace plumb::accuracy {
 namespace {
 
@@ -42,6 +44,17 @@ CaseInfo pulled(const char* name, const char* title) {
                         {"ODE", 1e-3, 3.145, 0},
                         {"DART", 1e-3, 3.145, 0},
                         {"MuJoCo 4", 1e-3, 5.5e-3, 0.63}}};
+}
+
+// C2: v^2/(2 mu g) in every heading, as slides_meter() puts it.
+std::vector<double> slides() {
+  const double way = 25.0 * 25 / (2 * 0.6 * kGravity) / std::sqrt(double{kHeadings});
+  std::vector<double> out;
+  for (int i = 0; i < kHeadings; ++i) {
+    const double heading = 2 * std::numbers::pi * i / kHeadings;
+    out.insert(out.end(), {way * std::cos(heading), way * std::sin(heading)});
+  }
+  return out;
 }
 
 std::vector<CaseInfo> make_catalogue() {
@@ -118,13 +131,22 @@ std::vector<CaseInfo> make_catalogue() {
        .scale = 10.19,
        .exact = V{100 / (2 * 0.5 * kGravity)},
        .touches = true},
+      {.name = "C2",
+       .family = Family::Sliding,
+       .title = "plates slide to a stop in 48 headings: places (rms)",
+       .unit = "m",
+       .scale = 53.09,
+       .exact = slides(),
+       .touches = true,
+       .rubs_askew = true},
       {.name = "C3",
        .family = Family::Sliding,
        .title = "block slides down 30 degrees: path in 2 s",
        .unit = "m",
        .scale = 4.71,
        .exact = V{c3},
-       .touches = true},
+       .touches = true,
+       .rubs_askew = true},
       {.name = "C5",
        .family = Family::Sliding,
        .title = "ball slides, then rolls: path in 2 s",

@@ -34,6 +34,7 @@ struct CaseInfo {
   bool turns = false;       // rotation methods are compared
   bool swings = false;      // joint orders are compared
   bool touches = false;     // warm starting is compared
+  bool rubs_askew = false;  // friction cones are compared
   bool flies_fast = false;  // continuous collision is compared
   double measure = 0;       // published measure = this times the square of the error
   std::string measure_unit = "";

@@ -40,7 +40,12 @@ const std::vector<std::string>& rotation_names() {
 }
 
 const std::vector<std::string>& solver_names() {
-  static const std::vector<std::string> names{"SoftStep", "Newton", "Auto"};
+  static const std::vector<std::string> names{"SoftStep", "Newton", "Auto", "WorstFirst"};
+  return names;
+}
+
+const std::vector<std::string>& friction_names() {
+  static const std::vector<std::string> names{"Exact", "4-facets", "8-facets"};
   return names;
 }
 

@@ -20,6 +20,8 @@ struct Knobs {
   int substeps = 4;      // [-] 1..64
   int rotation = 0;      // a RotationMethod by its number
   int solver = 0;        // a ContactSolver by its number
+  int iterations = 1;    // [-] 1..64, WorldSettings::velocity_iterations
+  int friction = 0;      // a FrictionCone by its number
   int joint_order = 2;   // [-] 2 or 4
   Precision precision = Precision::F64;
   bool warm_start = true;
@@ -62,6 +64,7 @@ const CellCode* cells_of(Precision precision);
 
 // How methods are called on the command line and in reports, in the order of RotationMethod.
 const std::vector<std::string>& rotation_names();
-const std::vector<std::string>& solver_names();  // likewise of ContactSolver
+const std::vector<std::string>& solver_names();    // likewise of ContactSolver
+const std::vector<std::string>& friction_names();  // likewise of FrictionCone
 
 }  // namespace plumb::accuracy

@@ -34,7 +34,7 @@ Series step_series(std::string label, const CaseInfo& info, bool quick, Knobs kn
   return series;
 }
 
-constexpr int kNewton = 1;  // in solver_names()
+constexpr int kNewton = 1, kWorstFirst = 3;  // in solver_names()
 
 // What of a setting is not as usual: ", Newton, no warm start".
 std::string exceptions_of(const Knobs& knobs) {
@@ -42,6 +42,10 @@ std::string exceptions_of(const Knobs& knobs) {
   std::string out;
   if (knobs.solver != usual.solver)
     out += ", " + solver_names()[static_cast<std::size_t>(knobs.solver)];
+  if (knobs.iterations != usual.iterations)
+    out += ", " + std::to_string(knobs.iterations) + " iterations";
+  if (knobs.friction != usual.friction)
+    out += ", friction " + friction_names()[static_cast<std::size_t>(knobs.friction)];
   if (knobs.joint_order != usual.joint_order)
     out += ", joints of order " + std::to_string(knobs.joint_order);
   if (!knobs.warm_start) out += ", no warm start";
@@ -50,6 +54,32 @@ std::string exceptions_of(const Knobs& knobs) {
 }
 
 std::string label_of(Precision p) { return kPrecisionNames[static_cast<int>(p)]; }
+
+// What is there to be compared with: friction on polygons, the resolver of the textbook, more
+// passes in place of more substeps.
+void add_comparisons(const CaseInfo& info, bool quick, const Knobs& base,
+                     std::vector<Series>& out) {
+  for (int cone = 1; info.rubs_askew && cone < static_cast<int>(friction_names().size()); ++cone) {
+    Knobs knobs = base;
+    knobs.friction = cone;
+    out.push_back(step_series("dt, friction " + friction_names()[static_cast<std::size_t>(cone)],
+                              info, quick, knobs));
+  }
+  if (info.family == Family::Stacked || info.family == Family::Sliding) {
+    Knobs knobs = base;
+    knobs.solver = kWorstFirst;
+    out.push_back(step_series("dt, WorstFirst", info, quick, knobs));
+  }
+  if (info.family != Family::Stacked) return;
+  Series iterations{"iterations at 1/60, soft steps", {}, false};
+  for (const int n :
+       quick ? std::vector<int>{1, 4, 16} : std::vector<int>{1, 2, 4, 8, 16, 32, 64}) {
+    Knobs knobs = base;
+    knobs.iterations = n;
+    iterations.settings.push_back(knobs);
+  }
+  out.push_back(std::move(iterations));
+}
 
 std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
   std::vector<Series> out;
@@ -87,6 +117,7 @@ std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
     knobs.solver = kNewton;
     out.push_back(step_series("dt, Newton, " + label_of(base.precision), info, quick, knobs));
   }
+  if (info.touches) add_comparisons(info, quick, base, out);
   if (info.touches && !quick) {
     Knobs knobs = base;
     knobs.warm_start = false;
@@ -105,33 +136,42 @@ std::vector<Series> own_choice(const CaseInfo& info, bool quick) {
   return out;
 }
 
-template <class T>
-std::vector<T> or_default(const std::vector<T>& given, T standard) {
-  return given.empty() ? std::vector<T>{standard} : given;
+// Every setting so far with each value of one knob.
+template <class T, class Given>
+void combine(std::vector<Knobs>& settings, const std::vector<Given>& given, T Knobs::*knob) {
+  if (given.empty()) return;
+  std::vector<Knobs> out;
+  for (const Knobs& setting : settings)
+    for (const Given value : given) {
+      out.push_back(setting);
+      out.back().*knob = value;
+    }
+  settings = std::move(out);
 }
 
 std::vector<Series> users_choice(const KnobChoice& choice) {
-  const Knobs standard;
+  Knobs standard;
+  standard.precision = precisions().front();
+  std::vector<Knobs> settings{standard};
+  combine(settings, choice.precision, &Knobs::precision);
+  combine(settings, choice.rotation, &Knobs::rotation);
+  combine(settings, choice.solver, &Knobs::solver);
+  combine(settings, choice.substeps, &Knobs::substeps);
+  combine(settings, choice.iterations, &Knobs::iterations);
+  combine(settings, choice.friction, &Knobs::friction);
+  combine(settings, choice.joint_order, &Knobs::joint_order);
+  combine(settings, choice.warm_start, &Knobs::warm_start);
+  combine(settings, choice.continuous, &Knobs::continuous);
   std::vector<Series> out;
-  for (const Precision p : or_default(choice.precision, precisions().front()))
-    for (const int rotation : or_default(choice.rotation, standard.rotation))
-      for (const int solver : or_default(choice.solver, standard.solver))
-        for (const int substeps : or_default(choice.substeps, standard.substeps))
-          for (const int joint_order : or_default(choice.joint_order, standard.joint_order))
-            for (const bool warm : or_default(choice.warm_start, standard.warm_start))
-              for (const bool continuous : or_default(choice.continuous, standard.continuous)) {
-                Knobs knobs{standard.dt, substeps, rotation, solver,
-                            joint_order, p,        warm,     continuous};
-                Series series;
-                series.label = label_of(p) + ", " +
-                               rotation_names()[static_cast<std::size_t>(rotation)] + ", " +
-                               std::to_string(substeps) + " substeps" + exceptions_of(knobs);
-                for (const double dt : or_default(choice.dt, standard.dt)) {
-                  knobs.dt = dt;
-                  series.settings.push_back(knobs);
-                }
-                out.push_back(std::move(series));
-              }
+  for (const Knobs& knobs : settings) {
+    Series series;
+    series.label = label_of(knobs.precision) + ", " +
+                   rotation_names()[static_cast<std::size_t>(knobs.rotation)] + ", " +
+                   std::to_string(knobs.substeps) + " substeps" + exceptions_of(knobs);
+    series.settings = {knobs};
+    combine(series.settings, choice.dt, &Knobs::dt);
+    out.push_back(std::move(series));
+  }
   return out;
 }
 

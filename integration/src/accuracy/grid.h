@@ -22,6 +22,8 @@ struct KnobChoice {
   std::vector<int> substeps;
   std::vector<int> rotation;
   std::vector<int> solver;
+  std::vector<int> iterations;
+  std::vector<int> friction;
   std::vector<int> joint_order;
   std::vector<Precision> precision;
   std::vector<bool> warm_start;
@@ -30,7 +32,8 @@ struct KnobChoice {
 
   [[nodiscard]] bool empty() const {
     return dt.empty() && substeps.empty() && rotation.empty() && solver.empty() &&
-           joint_order.empty() && precision.empty() && warm_start.empty() && continuous.empty();
+           iterations.empty() && friction.empty() && joint_order.empty() && precision.empty() &&
+           warm_start.empty() && continuous.empty();
   }
 };
 

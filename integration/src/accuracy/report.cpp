@@ -116,7 +116,8 @@ std::string table_of(const CaseResult& result) {
 // Our knobs stay empty in a row of another engine.
 std::string csv_of(const std::vector<CaseResult>& results, const Circumstances& where) {
   std::string out =
-      "case,family,title,engine,series,precision,dt_s,substeps,rotation,solver,joint_order,warm_"
+      "case,family,title,engine,series,precision,dt_s,substeps,rotation,solver,iterations,friction,"
+      "joint_order,warm_"
       "start,"
       "continuous,"
       "error,unit,"
@@ -140,13 +141,15 @@ std::string csv_of(const std::vector<CaseResult>& results, const Circumstances& 
              std::to_string(k.substeps) + ',' +
              rotation_names()[static_cast<std::size_t>(k.rotation)] + ',' +
              solver_names()[static_cast<std::size_t>(k.solver)] + ',' +
+             std::to_string(k.iterations) + ',' +
+             friction_names()[static_cast<std::size_t>(k.friction)] + ',' +
              std::to_string(k.joint_order) + ',' + (k.warm_start ? "1," : "0,") +
              (k.continuous ? "1," : "0,") + measured(cell.error, cell.cost, cell.pareto);
     }
     for (const PeerCurve& curve : result.peers)
       for (const CurvePoint& point : curve.points)
         out += what + curve.engine + ',' + quoted(label_of(curve)) + ",," +
-               number(point.dt, "%.17g") + ",,,,,,," + measured(point.error, point.cost, false);
+               number(point.dt, "%.17g") + ",,,,,,,,," + measured(point.error, point.cost, false);
   }
   return out;
 }

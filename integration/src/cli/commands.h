@@ -1,9 +1,11 @@
 // What the `plumb` program can do: one function a subcommand, each returns the exit code.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace plumb::cli {
 
@@ -13,15 +15,26 @@ enum ExitCode : int {
   kBadInput = 2,  // the user has to correct something: an option, a file, a path
 };
 
+// The words of the scene key contact_solver, in the order of ContactSolver.
+inline constexpr std::array<const char*, 4> kSolverWords{"soft_step", "newton", "auto",
+                                                         "worst_first"};
+
+// Items of the plan that the user forces off and on, by name.
+struct ForcedNames {
+  std::vector<std::string> off, on;
+};
+
 struct RunOptions {
   std::string scene;
+  ForcedNames forced;
   std::string output;                 // empty: nothing is recorded
   std::optional<std::int64_t> steps;  // >= 0
   std::optional<std::string> dt;      // [s] "0.01" or "1/60"
   std::optional<int> substeps;
-  std::optional<std::string> solver;  // a word of the scene key contact_solver
+  std::optional<std::string> solver;  // one of kSolverWords
   int threads = 1;                    // 0: as many as the machine has
   bool labels = false;                // names in the recording's 3D view
+  bool ledger = false;                // energy and momentum ledger in the recording's plots
   bool quiet = false;
 };
 int run_scene(const RunOptions& options);
@@ -46,7 +59,9 @@ int inspect_mesh(const MeshOptions& options);
 int print_effect_prices(const std::string& csv);
 // What each costs against the number of bodies that carry it; `chart` names an .svg or .png.
 int print_effect_scaling(const std::string& csv, const std::string& chart);
-int print_plan(const std::string& scene);
+// Whether the plan chooses rightly, over these scenes and many drawn by lot.
+int audit_plans(const std::vector<std::string>& scenes, const std::string& csv);
+int print_plan(const std::string& scene, const ForcedNames& forced);
 
 int replay_info(const std::string& recording);
 int replay_verify(const std::string& recording, int threads);

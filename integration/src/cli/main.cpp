@@ -34,22 +34,34 @@ CLI::Validator not_empty() {
           ""};
 }
 
+void add_forced(CLI::App& command, ForcedNames& forced) {
+  command.add_option("--without", forced.off, "Item of the plan to leave out, such as gyroscopic")
+      ->allow_extra_args(false);
+  command.add_option("--with", forced.on, "Item of the plan to run everywhere, such as look_ahead")
+      ->allow_extra_args(false);
+}
+
 void add_run(CLI::App& app, RunOptions& options, int& exit_code) {
   CLI::App* run = app.add_subcommand("run", "Simulate a scene; record it with -o");
   run->add_option("SCENE", options.scene, "Scene file (JSON)")->required();
-  run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file")
-      ->check(not_empty());
+  CLI::Option* output =
+      run->add_option("-o,--output", options.output, "Write a Rerun recording (.rrd) to this file")
+          ->check(not_empty());
   run->add_option("--steps", options.steps, "Number of steps instead of the scene's duration")
       ->check(CLI::Range(std::int64_t{0}, kMostSteps));
   run->add_option("--dt", options.dt,
                   "Length of a step in seconds, such as 0.01 or 1/60, instead of the scene's");
   run->add_option("--substeps", options.substeps, "Solver steps within one step (1 to 64)");
   run->add_option("--solver", options.solver, "Contact solver instead of the scene's")
-      ->check(CLI::IsMember({"soft_step", "newton", "auto"}));
+      ->check(CLI::IsMember(std::vector<std::string>(kSolverWords.begin(), kSolverWords.end())));
+  add_forced(*run, options.forced);
   run->add_option("--threads", options.threads, "Threads to step with; 0: all of the machine")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
   run->add_flag("--labels", options.labels, "Show names beside bodies and joints in the recording");
+  run->add_flag("--ledger", options.ledger,
+                "Show in the recording where the energy and momentum of each step went; slower")
+      ->needs(output);
   run->add_flag("-q,--quiet", options.quiet, "No progress bar and no summary");
   run->callback([&] { exit_code = run_scene(options); });
 }
@@ -83,7 +95,8 @@ void add_mesh(CLI::App& app, MeshOptions& options, int& exit_code) {
 
 struct EffectsOptions {
   std::string csv, chart;
-  bool scaling = false;
+  bool scaling = false, audit = false;
+  std::vector<std::string> scenes;
 };
 
 void add_effects(CLI::App& app, EffectsOptions& options, int& exit_code) {
@@ -94,7 +107,18 @@ void add_effects(CLI::App& app, EffectsOptions& options, int& exit_code) {
   effects->add_option("--chart", options.chart, "Draw it to this file, .svg or .png")
       ->check(not_empty())
       ->needs(scaling);
+  CLI::Option* audit =
+      effects
+          ->add_flag("--audit", options.audit,
+                     "Whether the plan chooses rightly: leave each item out and compare")
+          ->excludes(scaling);
+  effects->add_option("SCENE", options.scenes, "Scene files to audit beside those drawn by lot")
+      ->needs(audit);
   effects->callback([&] {
+    if (options.audit) {
+      exit_code = audit_plans(options.scenes, options.csv);
+      return;
+    }
     exit_code = options.scaling ? print_effect_scaling(options.csv, options.chart)
                                 : print_effect_prices(options.csv);
   });
@@ -156,7 +180,9 @@ int program(int argc, char** argv) {
   add_mesh(app, mesh, exit_code);
   CLI::App* plan = app.add_subcommand("plan", "Which effects and stages a scene pays for, and why");
   plan->add_option("SCENE", plan_scene, "Scene file (JSON)")->required();
-  plan->callback([&] { exit_code = print_plan(plan_scene); });
+  ForcedNames plan_forced;
+  add_forced(*plan, plan_forced);
+  plan->callback([&] { exit_code = print_plan(plan_scene, plan_forced); });
   EffectsOptions effects;
   add_effects(app, effects, exit_code);
   add_replay(app, replay, exit_code);

@@ -1,9 +1,11 @@
 // plumb run SCENE
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/forcing.h"
 #include "cli/progress_bar.h"
 #include "cli/read_number.h"
 #include "cli/recording_file.h"
@@ -42,11 +44,10 @@ std::string apply(const RunOptions& options, assets::Scene& scene) {
     }
   }
   if (options.solver) {
-    scene.settings.contact_solver = *options.solver == "newton" ? ContactSolver::Newton
-                                    : *options.solver == "auto" ? ContactSolver::Auto
-                                                                : ContactSolver::SoftStep;
+    const auto word = std::find(kSolverWords.begin(), kSolverWords.end(), *options.solver);
+    scene.settings.contact_solver = static_cast<ContactSolver>(word - kSolverWords.begin());
   }
-  return {};
+  return force(options.forced, scene.settings);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -107,6 +108,9 @@ int run_scene(const RunOptions& options) {
     for (const std::string& note : instance->notes) complain("note: " + note);
   }
 
+  StepDiagnostics diagnostics;
+  diagnostics.ledger = options.ledger;
+  world.set_diagnostics(diagnostics);
   RecordingFile recording;
   if (!options.output.empty()) {
     const std::string wrong =

@@ -1,9 +1,11 @@
 #include "cli/run_summary.h"
 
 #include <algorithm>
+#include <bit>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace plumb::cli {
 namespace {
@@ -52,6 +54,7 @@ void RunSummary::begin(const PhysicsWorld& world) {
   const EnergyReport energy = world.energy();
   first_energy = last_energy = lowest_energy = energy.total();
   largest_kinetic = energy.kinetic_linear + energy.kinetic_angular;
+  planned = world.planned_items();
 }
 
 void RunSummary::add(const PhysicsWorld& world, const StepReport& report) {
@@ -67,6 +70,8 @@ void RunSummary::add(const PhysicsWorld& world, const StepReport& report) {
   lowest_energy = std::min(lowest_energy, last_energy);
   energy_gained = std::max(energy_gained, last_energy - lowest_energy);
   largest_kinetic = std::max(largest_kinetic, energy.kinetic_linear + energy.kinetic_angular);
+  const std::uint64_t before = std::exchange(planned, world.planned_items());
+  plan_changes += static_cast<std::uint64_t>(std::popcount(planned ^ before));
 }
 
 std::vector<std::string> RunSummary::lost_bodies(const assets::SceneInstance& instance,
@@ -110,6 +115,8 @@ void RunSummary::print(const assets::Scene& scene, const assets::SceneInstance& 
       "Energy       %.6g J at the start, %.6g J at the end; upward drift at most"
       " %.3g J (%.3g %% of the largest kinetic energy)\n",
       first_energy, last_energy, energy_gained, 100 * ratio(energy_gained, largest_kinetic));
+  std::printf("Plan         %d of %zu items at the end; %" PRIu64 " times one went on or off\n",
+              std::popcount(planned), kPlanItemCount, plan_changes);
   std::printf("State hash   %016" PRIx64 "\n", world.state_hash());
   if (!recording.is_open() || recording.bytes() == 0) return;
   std::printf(

@@ -24,11 +24,13 @@ struct RunSummary {
     BodyId body;
   };
   std::vector<Lost> lost;
-  double first_energy = 0;     // [J]
-  double last_energy = 0;      // [J]
-  double lowest_energy = 0;    // [J] so far
-  double energy_gained = 0;    // [J] the most that it ever stood above an earlier value
-  double largest_kinetic = 0;  // [J]
+  double first_energy = 0;         // [J]
+  double last_energy = 0;          // [J]
+  double lowest_energy = 0;        // [J] so far
+  double energy_gained = 0;        // [J] the most that it ever stood above an earlier value
+  double largest_kinetic = 0;      // [J]
+  std::uint64_t planned = 0;       // items of the plan at the end
+  std::uint64_t plan_changes = 0;  // of items that went on or off
 
   void begin(const PhysicsWorld& world);
   void add(const PhysicsWorld& world, const StepReport& report);

@@ -4,50 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "plumb/precision.h"
+#include "plumb/plan_items.h"
 
 namespace plumb::inline PLUMB_ABI {
-
-enum class PlanItem : unsigned char {
-  Gravity,
-  Forces,
-  Damping,
-  Gyroscopic,
-  MotionLocks,
-  Contacts,
-  Friction,
-  Restitution,
-  Continuous,
-  Sensors,
-  Sleeping,
-  DoublePositions,
-  Joints,
-  RollingFriction,
-  SurfaceVelocity,
-  OneWay,
-  AnisotropicFriction,
-  Adhesion,
-  AccurateContacts,  // ContactSolver::Newton for some islands
-  // Effects, in the order of EffectKind (plumb/effects.h).
-  PointGravity,
-  ForceField,
-  Thrust,
-  Explosion,
-  Drag,
-  Magnus,
-  Attractor,
-  Wind,
-  AeroSurface,
-  Buoyancy,
-  Spring,
-  Count,
-};
-const char* name_of(PlanItem item);
 
 struct PlanDecision {
   PlanItem item;
   bool active;
   std::string reason;  // who called for it, or why nothing does
+  Choice choice = Choice::Automatic;
+  // Where it is forced off: the bound on what is lost, by the numbers of this scene; empty where
+  // nothing is.
+  std::string loss{};
 };
 
 struct StepPlan {

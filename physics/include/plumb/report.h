@@ -44,6 +44,12 @@ struct StepReport {
   std::uint32_t looked_ahead = 0;  // contacts of fast pairs, made where they will first touch
   std::uint32_t continuous = 0;    // bodies that would have passed something and were stopped at it
 
+  std::uint32_t kept_pairs = 0;      // whose contacts were taken over from an earlier step
+  std::uint32_t fast_turning = 0;    // contacts told anew within the step: a body turns fast
+  std::uint32_t deep_bodies = 0;     // that overlap deeply, or touch what does
+  std::uint32_t direct_joints = 0;   // solved with all that hang together with them, at once
+  std::uint32_t joint_substeps = 0;  // of joint groups beyond the world's own
+
   // Of the accurate solver (ContactSolver::Newton), over all substeps; zero where it is not used.
   std::uint32_t newton_islands = 0;         // solved by it
   std::uint32_t newton_factorizations = 0;  // of their matrices: what the step cost

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "plumb/math.h"
+#include "plumb/plan_items.h"
 #include "plumb/status.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -40,14 +41,33 @@ struct SettingsChoice;
 
 // How contacts and joints that touch something are solved.
 enum class ContactSolver : std::uint8_t {
-  SoftStep,  // fast: one soft pass and one relaxing pass a substep (src/solver); the default
+  SoftStep,  // fast: one soft pass and one relaxing pass a substep (src/solver)
   // Accurate: each island to the exact laws in every substep, whatever its masses and its height,
   // in double (src/solver/newton). Costs more where many contacts open and close.
   Newton,
-  // Newton for the islands that call for it, soft steps for the others: where heavy bodies lie on
-  // light ones or many on one another (world.plan() tells; physics/README.md has the map).
+  // The default: soft steps, and Newton for the islands that call for it: where heavy bodies lie on
+  // light ones or many on one another. Its cost is bounded; what is too large or takes too long
+  // goes on in soft steps (world.plan() tells; physics/README.md has the map). The bits are those
+  // of SoftStep where nothing calls.
   Auto,
+  // Sequential, as the textbook has it [Millington 2010]: in every substep the worst penetration
+  // by itself, then the next, then likewise the contact that closes fastest; nothing is remembered
+  // (src/solver/worst_first.cpp). There to be compared with: its time grows with the square of the
+  // number of contacts.
+  WorstFirst,
 };
+inline constexpr int kContactSolverCount = 4;
+
+// Up to where friction holds: all tangential impulses f of a point with normal impulse N that are
+// within a circle of radius mu N, or within a polygon about that circle, with its first facet
+// across the contact's first tangent: what engines limit axis by axis. A body on a polygon is held
+// and slowed by more than mu N between the middles of its facets, and drawn to one side.
+enum class FrictionCone : std::uint8_t {
+  Exact,        // the circle; the default
+  FourFacets,   // |f1|, |f2| <= mu N: up to 41% too much
+  EightFacets,  // |f1|, |f2|, |f1 +- f2| / sqrt(2) <= mu N: up to 8% too much
+};
+inline constexpr int kFrictionConeCount = 3;
 
 struct WorldSettings {
   Vec3 gravity = Vec3(0, Real(-9.81), 0);  // [m/s^2] finite
@@ -61,7 +81,14 @@ struct WorldSettings {
   Real contact_damping_ratio = Real(10);
 
   RotationMethod rotation = RotationMethod::Exact;
-  ContactSolver contact_solver = ContactSolver::SoftStep;
+  ContactSolver contact_solver = ContactSolver::Auto;
+  // Passes of the soft steps over contacts, and joints of what touches something, in each substep
+  // [-] 1..64; what other engines call iterations. There to be compared with more substeps.
+  // WorstFirst: so many times eight resolutions a contact. Newton needs none.
+  int velocity_iterations = 1;
+  // Polygons are there to be compared with the circle. Bounces, rolling friction, Newton and
+  // WorstFirst keep circles.
+  FrictionCone friction_cone = FrictionCone::Exact;
   // Order in the substep of what jointed bodies that touch nothing do [-], 2 or 4. 4: five times
   // the cost of their joints; with four substeps in double the error of a pendulum's period falls
   // from 2e-5 to 4e-8, with one from 4e-4 to 1e-7. What has motors, friction, dampers or limits
@@ -72,6 +99,11 @@ struct WorldSettings {
   bool sleeping = true;       // islands at rest stop costing anything
   Real time_to_sleep = Real(0.5);  // [s] >= 0 that every body of an island must have been at rest
   bool profiling = false;          // fill StepReport::stage_seconds
+
+  // Items of the plan that are forced on or off, whatever the scene calls for; what is forced off
+  // is told by world.plan() with the bound on what is lost. AccurateContacts goes before
+  // contact_solver, Sleeping before sleeping.
+  PlanChoices forced{};
 
   // The cheapest settings and step known to keep the error below a tolerance, or the most accurate
   // ones within a budget, by measurements of this build's number types (`plumb accuracy --table`

@@ -21,7 +21,7 @@ struct SnapshotColumn {
 };
 
 struct Snapshot {
-  static constexpr std::uint32_t kSchemaVersion = 6;
+  static constexpr std::uint32_t kSchemaVersion = 7;
   std::uint32_t schema_version = kSchemaVersion;
   std::string precision;  // "f32", "f32d" or "f64": restored by the same build only
   std::vector<SnapshotColumn> columns;

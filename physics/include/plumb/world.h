@@ -148,6 +148,8 @@ class PhysicsWorld {
   [[nodiscard]] const StepReport& last_report() const;
   [[nodiscard]] Events events() const;
   [[nodiscard]] StepPlan plan() const;  // for the scene as it stands
+  // The active items of plan() without words, bit by bit_of(item): some nanoseconds a body.
+  [[nodiscard]] std::uint64_t planned_items() const;
   // Observers see every step from now on. Not owned.
   void attach(StepObserver* observer);
   void detach(StepObserver* observer);

@@ -16,6 +16,7 @@
 #include "motion/body_motion.h"
 #include "solver/body_substep.h"
 #include "world/body_sweep.h"
+#include "world/forced.h"
 #include "world/tolerances.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -206,7 +207,7 @@ void fly_substep(WorldState& world, std::uint32_t i) {
                                   : DampedMotion{1, Real(0.5) * h, 0};
   L = half.decay * L + half.gain * force.torque;
   Rotation q = orientation_now(world, i);
-  turn_freely(world.settings.rotation, mass, q, L, h);
+  turn(world.settings, mass, q, L, h);
   L = half.decay * L + half.gain * force.torque;
   delta.dq = normalized(q * conjugate(world.bodies.pose[i].q));
   velocity.w = angular_velocity_of(mass, q, L);
@@ -283,6 +284,7 @@ void begin_effects(WorldState& world) {
   clear_books(store);
   for (std::size_t kind = 0; kind < kEffectKindCount; ++kind) {
     scratch.first[kind] = static_cast<std::uint32_t>(scratch.links.size());
+    if (world.settings.forced.off(item_of_effect(kind))) continue;
     for (const std::uint32_t slot : store.pool[kind]) {
       if (std::holds_alternative<Spring>(store.info[slot].component.kind)) {
         link_spring(world, scratch, slot);

@@ -21,6 +21,9 @@ void remove_effects_of(WorldState& world, std::uint32_t body);
 void wake_tied(WorldState& world, std::uint32_t body);
 void link_tied(WorldState& world);  // islands: springs link the bodies that they tie
 // For the plan: effects of a kind, and dynamic bodies that are awake and within their reach.
+inline PlanItem item_of_effect(std::size_t kind) {
+  return static_cast<PlanItem>(static_cast<std::size_t>(PlanItem::PointGravity) + kind);
+}
 std::uint32_t effects_of_kind(const WorldState& world, std::size_t kind);
 std::uint32_t bodies_reached(const WorldState& world, std::size_t kind);
 double effect_potential(const WorldState& world);

@@ -95,6 +95,12 @@ void turn_by_velocity(RotationMethod method, const BodyMass& m, Rotation& q, Vec
 
 }  // namespace
 
+void turn_steadily(const BodyMass& m, Rotation& q, Vec& L, Real h) {
+  const Vec w = angular_velocity_of(m, q, L);
+  q = normalized(from_rotation_vector(h * w) * q);
+  L = angular_momentum_of(m, q, w);
+}
+
 void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, Real h) {
   if (m.angular_locks != 0) {  // the locks' torques keep the free part of L, not the tumbling
     q = normalized(from_rotation_vector(h * angular_velocity_of(m, q, L)) * q);

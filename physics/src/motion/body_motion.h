@@ -48,6 +48,8 @@ constexpr bool keeps_momentum(RotationMethod method) {
          method == RotationMethod::Splitting || method == RotationMethod::Splitting4;
 }
 
+// Turns a body without the gyroscopic term: w stays, L = I w is what it comes to.
+void turn_steadily(const BodyMass& m, Rotation& q, Vec& L, Real h);
 // Turns a body freely for a time h by the chosen method. Locked axes are the same under all.
 void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, Real h);
 

@@ -44,11 +44,13 @@ struct BodyPass {
   Real h = 0, dt = 0;           // [s] substep, step
 };
 
-// One kernel. Over contact rows: a sweep over blocks [begin, end) of one colour. Over bodies: those
+// One kernel. Over contact rows: a sweep over blocks [begin, end), of one colour where they act
+// (prepare makes their responses, once). Over bodies: those
 // of the `lanes` bodies from `first` on whose bit is set in `which`; returns those that it left as
 // they were because they turn too fast for one series.
 struct BlockKernel {
   int lanes = 1;
+  void (*prepare)(const BlockPass& pass, std::uint32_t begin, std::uint32_t end) = nullptr;
   void (*warm)(const BlockPass& pass, std::uint32_t begin, std::uint32_t end) = nullptr;
   void (*solve)(const BlockPass& pass, std::uint32_t begin, std::uint32_t end) = nullptr;
   void (*relax)(const BlockPass& pass, std::uint32_t begin, std::uint32_t end) = nullptr;

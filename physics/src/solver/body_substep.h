@@ -4,6 +4,7 @@
 #include "motion/body_motion.h"
 #include "solver/body_kernel.h"
 #include "solver/contact_row.h"
+#include "world/forced.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -51,7 +52,7 @@ inline void drift(WorldState& world, std::uint32_t i, Real h) {
   delta.dp += h * velocity.v;
   Rotation q = orientation_now(world, i);
   Vec& L = world.bodies.momentum[i].L;
-  turn_freely(world.settings.rotation, world.bodies.mass[i], q, L, h);
+  turn(world.settings, world.bodies.mass[i], q, L, h);
   delta.dq = normalized(q * conjugate(world.bodies.pose[i].q));
   velocity.w = angular_velocity_of(world.bodies.mass[i], q, L);
   world.substep[i].w_in = velocity.w;

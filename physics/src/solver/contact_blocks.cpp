@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "math/wide.h"
+#include "solver/row_responses.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -164,6 +165,12 @@ class Sorter {
   std::size_t reals_ = 0;
 };
 
+void respond(ContactRow<Real>& row) {
+  fill_responses(row);
+  choose_softness(row);
+  row.responds = true;
+}
+
 template <class Task>
 void for_blocks(WorldState& world, Task&& task) {
   parallel_for(world, static_cast<std::uint32_t>(world.blocks.heads.size()), tolerance::kBlockGrain,
@@ -190,8 +197,20 @@ BlockKernel choose_block_kernel(int bits) {
 
 void fill_blocks(WorldState& world) {
   const StepDiagnostics& looks = world.diagnostics;
-  world.blocks.kernel = looks.ledger ? BlockKernel{} : choose_block_kernel(looks.kernel_bits);
+  const bool alone = looks.ledger || world.settings.friction_cone != FrictionCone::Exact;
+  world.blocks.kernel = alone ? BlockKernel{} : choose_block_kernel(looks.kernel_bits);
   Sorter(world).sort();
+  ContactBlocks& blocks = world.blocks;
+  parallel_for(world, static_cast<std::uint32_t>(blocks.loose.size()), tolerance::kRowGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 for (std::uint32_t i = begin; i < end; ++i) {
+                   ContactRow<Real>& row = world.rows[blocks.loose[i]];
+                   if (!row.responds) respond(row);
+                 }
+               });
+  BlockPass pass;
+  pass.heads = blocks.heads.data();
+  pass.numbers = blocks.data();
   const std::size_t lanes = static_cast<std::size_t>(world.blocks.kernel.lanes);
   for_blocks(world, [&](const BlockHead& head) {
     Real* const to = world.blocks.data() + head.numbers;
@@ -211,6 +230,8 @@ void fill_blocks(WorldState& world) {
           for (std::size_t i = 0; i < kTile; ++i) rest(first + i, *four[i], in_tiles);
         },
         [&](std::size_t i, ContactRow<Real>& row) { rest(i, row, 0); });
+    const auto place = static_cast<std::uint32_t>(&head - blocks.heads.data());
+    blocks.kernel.prepare(pass, place, place + 1);
   });
 }
 

@@ -222,12 +222,26 @@ struct RoundCone {
   static void enter(T&, T&, T&, T&) {}
   template <class T>
   static void leave(T&) {}
+  // [N s] the limit on whose surface an impulse lies.
+  template <class T>
+  static T size_of(T f1, T f2) {
+    return root_of(f1 * f1 + f2 * f2);
+  }
+  // Replaces an impulse by the nearest one within the limit; returns the size that it had.
+  template <class T>
+  static T pull_in(T& f1, T& f2, T limit) {
+    const T size = size_of(f1, f2);
+    const T scale = select(size > limit, limit / size, T(1));
+    f1 = f1 * scale;
+    f2 = f2 * scale;
+    return size;
+  }
 };
 // The friction cone is an ellipse, `along` times as wide along t1 as along t2. In axes scaled by
-// that, impulses by 1/along and velocities by along, it is round, power stays power, and the
-// impulse that takes most energy from the slip is again the one that opposes it.
-template <class T>
-struct GrainCone {
+// that, impulses by 1/along and velocities by along, it is as without grain, power stays power, and
+// the impulse that takes most energy from the slip is again the one that opposes it.
+template <class T, class Cone = RoundCone>
+struct GrainCone : Cone {
   T along;
   void enter(T& v1, T& k11, T& k12, T& f1) const {
     v1 *= along;
@@ -267,15 +281,12 @@ inline void solve_friction(Row& row, RowVelocities<T>& u, T& load, T& sliding,
     const MaskOf<T> regular = determinant > T(kSingular) * k * k;
     T f1 = start1 - (k22 * v1 - k12 * v2) / determinant;
     T f2 = point.friction2 - (k11 * v2 - k12 * v1) / determinant;
-    T size = root_of(f1 * f1 + f2 * f2);
+    T size = cone.size_of(f1, f2);
     T share = size / limit;
     const MaskOf<T> slides = negate(regular) | (size > limit);
     if (any(slides & acts)) {
       T s1 = start1 - v1 / k, s2 = point.friction2 - v2 / k;
-      size = root_of(s1 * s1 + s2 * s2);
-      const T scale = select(size > limit, limit / size, T(1));
-      s1 = s1 * scale;
-      s2 = s2 * scale;
+      size = cone.pull_in(s1, s2, limit);
       f1 = select(slides, s1, f1);
       f2 = select(slides, s2, f2);
       const T held = select(negate(regular) & (size < limit), size / limit, T(1));

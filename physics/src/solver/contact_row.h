@@ -86,6 +86,8 @@ struct RowNumbers {
   T arm_room = T(0);  // [m] by which they follow at most, along each axis (place_arms)
   T friction = T(0);  // [-]
   T bias_rate = T(0), mass_scale = T(1), impulse_scale = T(0);
+  // What these are where the points cannot be solved at once (choose_softness).
+  T mass_scale_in_turn = T(1), impulse_scale_in_turn = T(0);
   T push_speed_now = T(0);  // [m/s] limit of the velocity that works off overlap, this substep
   T negligible = T(0);      // [N s] impulses up to this do not count as load
   // 1 where `block` holds the pseudo-inverse of the points' response matrix (upper triangle by
@@ -114,6 +116,7 @@ struct ContactRow : RowNumbers<T, 4> {
   std::uint32_t contact = 0;             // index into the world's contacts
   int count = 0;
   bool in_block = false;  // the wide kernel has it in this step (contact_blocks.h)
+  bool responds = false;  // its responses have been made; in a block the kernel makes them
   bool spun = false;      // it holds a body that was set spinning within the step
 
   Vector3<T> between;  // [m] from A's centre of mass to B's

@@ -20,6 +20,7 @@
 
 #include "solver/body_kernel.h"
 #include "solver/contact_kernel.h"
+#include "solver/row_responses.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -95,6 +96,13 @@ class BlockBodies {
 template <int P>
 RowBlock<P>& numbers_of(const BlockPass& pass, const BlockHead& head) {
   return *reinterpret_cast<RowBlock<P>*>(pass.numbers + head.numbers);
+}
+
+template <int P>
+void prepare_rows(const BlockPass& pass, const BlockHead& head) {
+  RowBlock<P>& row = numbers_of<P>(pass, head);
+  make_responses(row);
+  choose_softness(row);
 }
 
 template <int P>
@@ -292,9 +300,10 @@ namespace plumb::inline PLUMB_SHARED_ABI::detail {
 
 BlockKernel PLUMB_JOIN(block_kernel_, PLUMB_VECTOR_BITS, )() {
   namespace here = plumb::PLUMB_ABI::detail;
-  using here::relax_rows, here::solve_rows, here::warm_rows;
+  using here::prepare_rows, here::relax_rows, here::solve_rows, here::warm_rows;
   BlockKernel kernel;
   kernel.lanes = here::kLanes;
+  kernel.prepare = PLUMB_FOR_EACH_BLOCK(prepare_rows);
   kernel.warm = PLUMB_FOR_EACH_BLOCK(warm_rows);
   kernel.solve = PLUMB_FOR_EACH_BLOCK(solve_rows);
   kernel.relax = PLUMB_FOR_EACH_BLOCK(relax_rows);

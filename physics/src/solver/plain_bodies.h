@@ -17,7 +17,9 @@ inline bool is_plain(const WorldState& world, std::uint32_t i) {
   const BodyForce& force = world.bodies.force[i];
   const BodyMass& mass = world.bodies.mass[i];
   return mass.mass > Real(0) && mass.angular_locks == 0 && !(force.linear_damping > Real(0)) &&
-         !(force.angular_damping > Real(0)) && world.settings.rotation == RotationMethod::Exact;
+         !(force.angular_damping > Real(0)) &&
+         rotation_of(world.settings) == RotationMethod::Exact &&
+         !lacks_gyroscopic_term(world.settings, mass);
 }
 
 class PlainBodies {
@@ -50,6 +52,8 @@ class PlainBodies {
                                                                : BodyWay::Other;
       }
     });
+    all_fly_ = std::all_of(world.body_ways.begin() + bodies.awake_begin, world.body_ways.end(),
+                           [](BodyWay way) { return way == BodyWay::Free; });
   }
 
   // Each runs the kernel on what goes that way; task(i) on what the kernel leaves, and on bodies
@@ -97,6 +101,7 @@ class PlainBodies {
   }
   template <class Task, class Run>
   void sweep(BodyWay way, Task&& task, Run&& run) {
+    if (all_fly_ && way != BodyWay::Free) return;
     const std::uint32_t lanes = static_cast<std::uint32_t>(kernel_.lanes);
     for_chunks([&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t first = begin; first < end; first += lanes) {
@@ -121,6 +126,7 @@ class PlainBodies {
   WorldState& world_;
   BlockKernel kernel_;
   BodyPass pass_;
+  bool all_fly_ = false;
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -4,12 +4,14 @@
 #include <limits>
 
 #include "collision/rolling.h"
-#include "math/symmetric_inverse.h"
+#include "effects/effect_world.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
 #include "solver/newton/newton_solver.h"
+#include "solver/row_responses.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
+#include "solver/worst_first.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -67,30 +69,6 @@ class RowContext {
   StepList<RowBody> bodies_;  // per dense body that is awake
 };
 
-// x^T M y
-Real bilinear(const Symmetric3<Real>& M, Vec x, Vec y) { return dot(x, M * y); }
-Real bilinear(Vec diagonal, Vec x, Vec y) { return dot(x, multiply_each(diagonal, y)); }
-
-// K of the normal space (u0, u1, u2) and of the friction space (x, y, z): the velocity change per
-// unit generalised impulse, summed over both bodies.
-void add_response(ContactRow<Real>& row, Vec arm, Vec inverse_mass,
-                  const Symmetric3<Real>& inverse_inertia) {
-  const Vec rn = cross(arm, row.n), r1 = cross(arm, row.t1), r2 = cross(arm, row.t2);
-  const auto& I = inverse_inertia;
-  row.K_normal.xx += bilinear(inverse_mass, row.n, row.n) + bilinear(I, rn, rn);
-  row.K_normal.xy += bilinear(I, rn, row.t1);
-  row.K_normal.xz += bilinear(I, rn, row.t2);
-  row.K_normal.yy += bilinear(I, row.t1, row.t1);
-  row.K_normal.yz += bilinear(I, row.t1, row.t2);
-  row.K_normal.zz += bilinear(I, row.t2, row.t2);
-  row.K_friction.xx += bilinear(inverse_mass, row.t1, row.t1) + bilinear(I, r1, r1);
-  row.K_friction.yy += bilinear(inverse_mass, row.t2, row.t2) + bilinear(I, r2, r2);
-  row.K_friction.xy += bilinear(inverse_mass, row.t1, row.t2) + bilinear(I, r1, r2);
-  row.K_friction.xz += bilinear(I, r1, row.n);
-  row.K_friction.yz += bilinear(I, r2, row.n);
-  row.K_friction.zz += bilinear(I, row.n, row.n);
-}
-
 void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real warm) {
   for (int i = 0; i < row.count; ++i) {
     auto& point = row.points[i];
@@ -110,84 +88,31 @@ void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real
 
 // A contact sinks by g/w^2 under its load: for no size to sink more than its share, w^2 must follow
 // g / thickness, as far as the substep allows [Catto 2024].
-Softness contact_softness(const RowContext& context, const ContactRow<Real>& row, Real thickness) {
+void soften(const RowContext& context, ContactRow<Real>& row, Real thickness) {
   const WorldState& world = context.world;
   const Real pull = context.gravity / thickness;
   const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
   const Real stiffest = tolerance::kStiffestContact / world.h;
   Real frequency = std::min(world.settings.contact_frequency * stiffer, stiffest);
-  Real masses = 1;
-  const bool at_once = row.count == 1 || row.has_block > Real(0);
-  if (!row.both_dynamic) {
-    frequency *= tolerance::kStaticStiffness;
-  } else if (at_once) {  // points that take turns are a spring each, and stiff enough
+  if (!row.both_dynamic) frequency *= tolerance::kStaticStiffness;
+  const Real damping = world.settings.contact_damping_ratio;
+  const Softness in_turn = make_softness(frequency, damping, Real(1), world.h);
+  Softness at_once = in_turn;
+  if (row.both_dynamic) {
     const Real room = stiffest / frequency;  // a spring of s masses is sqrt(s) times as fast
-    masses = std::min(tolerance::kContactMasses, room * room);
+    at_once = make_softness(frequency, damping, std::min(tolerance::kContactMasses, room * room),
+                            world.h);
   }
-  return make_softness(frequency, world.settings.contact_damping_ratio, masses, world.h);
-}
-
-// Smallest relative determinant at which a 3x3 system counts as solvable [-]; below it the points
-// lie nearly on a line, or a locked axis leaves nothing to solve for.
-constexpr Real kSolvable = Real(1e-5);
-
-// The response of the points to their impulses is A = G K G^T with the rows (1, b_i, -a_i) of G.
-// Its pseudo-inverse is H K^-1 H^T, H = G (G^T G)^-1; for two points A itself is inverted.
-void make_block(ContactRow<Real>& row) {
-  constexpr int kStride[4] = {0, 4, 7, 9};  // where each row of the upper triangle begins
-  if (row.count == 2) {
-    const auto row_of = [&](int i) { return Vec{Real(1), row.points[i].b, -row.points[i].a}; };
-    const Vec g0 = row_of(0), g1 = row_of(1);
-    const Real a00 = dot(g0, row.K_normal * g0), a01 = dot(g0, row.K_normal * g1),
-               a11 = dot(g1, row.K_normal * g1);
-    const Real determinant = a00 * a11 - a01 * a01;
-    if (!(determinant > kSolvable * a00 * a11)) return;
-    row.block[0] = a11 / determinant;
-    row.block[1] = -a01 / determinant;
-    row.block[kStride[1]] = a00 / determinant;
-    row.has_block = Real(1);
-    return;
-  }
-  if (row.count < 3) return;
-  Symmetric3<Real> gram{}, gram_inverse{}, K_inverse{};
-  for (int i = 0; i < row.count; ++i) {
-    const Real a = row.points[i].a, b = row.points[i].b;
-    gram.xx += Real(1);
-    gram.yy += b * b;
-    gram.zz += a * a;
-    gram.xy += b;
-    gram.xz -= a;
-    gram.yz -= a * b;
-  }
-  if (!invert(gram, kSolvable, gram_inverse) || !invert(row.K_normal, kSolvable, K_inverse)) return;
-  Vec h[4];
-  for (int i = 0; i < row.count; ++i)
-    h[i] = gram_inverse * Vec{Real(1), row.points[i].b, -row.points[i].a};
-  for (int i = 0; i < row.count; ++i)
-    for (int j = i; j < row.count; ++j) row.block[kStride[i] + j - i] = dot(h[i], K_inverse * h[j]);
-  row.has_block = Real(1);
+  row.bias_rate = at_once.bias_rate;
+  row.mass_scale = at_once.mass_scale;
+  row.impulse_scale = at_once.impulse_scale;
+  row.mass_scale_in_turn = in_turn.mass_scale;
+  row.impulse_scale_in_turn = in_turn.impulse_scale;
 }
 
 }  // namespace
 
-void fill_responses(ContactRow<Real>& row) {
-  row.K_normal = row.K_friction = {};
-  add_response(row, row.arm_a, row.inverse_mass_a, row.inverse_inertia_a);
-  add_response(row, row.arm_b, row.inverse_mass_b, row.inverse_inertia_b);
-  const auto &K = row.K_normal, &F = row.K_friction;
-  for (int i = 0; i < row.count; ++i) {
-    auto& point = row.points[i];
-    const Real a = point.a, b = point.b;
-    const Real response =
-        K.xx + b * b * K.yy + a * a * K.zz + Real(2) * (b * K.xy - a * K.xz - a * b * K.yz);
-    point.normal_mass = response > Real(0) ? Real(1) / response : Real(0);
-    point.k11 = F.xx - Real(2) * b * F.xz + b * b * F.zz;
-    point.k12 = F.xy + a * F.xz - b * F.yz - a * b * F.zz;
-    point.k22 = F.yy + Real(2) * a * F.yz + a * a * F.zz;
-  }
-  row.has_block = Real(0);
-  make_block(row);
-}
+void fill_responses(ContactRow<Real>& row) { make_responses(row); }
 
 namespace {
 
@@ -196,7 +121,7 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                      Vec outward) {
   const ColliderInfo& collider = world.colliders.info[slot];
   if (!is_curved(collider.shape.type)) return radius;
-  const Rotation& q_body = world.bodies.pose[world.bodies.info[collider.body].dense].q;
+  const Rotation& q_body = world.bodies.pose[world.bodies.dense_of[collider.body]].q;
   const Vec place = inverse_rotate(q_body, arm), normal = inverse_rotate(q_body, outward);
   return rolling_radius(collider.shape, inverse_transform_point(collider.in_body, place),
                         inverse_rotate(collider.in_body.q, normal));
@@ -214,7 +139,7 @@ void align_with_grain(const WorldState& world, const Pair& pair, ContactRow<Real
   };
   if (share(*other) < share(*grained)) grained = other;
   const Material& material = grained->component.material;
-  const Rotation& q_body = world.bodies.pose[world.bodies.info[grained->body].dense].q;
+  const Rotation& q_body = world.bodies.pose[world.bodies.dense_of[grained->body]].q;
   const Vec grain = rotate(q_body, rotate(grained->in_body.q, to_inner(material.grain)));
   const Vec flat = grain - dot(grain, row.n) * row.n;
   const Real size = length(flat);
@@ -229,12 +154,10 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const BodyStore& bodies = world.bodies;
   const Contact& contact = world.contacts[contact_index];
   const Pair& pair = world.pairs[contact.pair];
-  const BodyInfo& info_a = bodies.info[pair.body_a];
-  const BodyInfo& info_b = bodies.info[pair.body_b];
   row = {};
   row.contact = contact_index;
-  row.body_a = info_a.dense;
-  row.body_b = info_b.dense;
+  row.body_a = bodies.dense_of[pair.body_a];
+  row.body_b = bodies.dense_of[pair.body_b];
   row.count = contact.manifold.count;
   row.n = contact.manifold.normal;
   tangent_frame(row.n, row.t1, row.t2);
@@ -280,16 +203,12 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const Real warm =
       world.settings.warm_starting && world.last_h > Real(0) ? world.h / world.last_h : Real(0);
   make_points(row, contact, center, warm);
-  fill_responses(row);
 
   if (pair.driven) row.drive = drive_of(world, pair, row).velocity;
   row.friction = pair.friction;
   row.restitution = pair.restitution;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
-  const Softness softness = contact_softness(context, row, thickness);
-  row.bias_rate = softness.bias_rate;
-  row.mass_scale = softness.mass_scale;
-  row.impulse_scale = softness.impulse_scale;
+  soften(context, row, thickness);
   row.push_speed = tolerance::kPushRate * thickness;
   row.push_speed_now = row.push_speed;
   // What overlaps is no collision to come: it must approach faster than resting bodies to bounce.
@@ -343,6 +262,29 @@ void build_turning_rows(WorldState& world) {
   }
 }
 
+void begin_body(WorldState& world, std::uint32_t i, bool held, bool needs_inertia,
+                RowContext& context) {
+  BodyStore& bodies = world.bodies;
+  world.delta[i] = {};
+  SubstepBody& s = world.substep[i];
+  s = {};
+  const BodyMass& m = bodies.mass[i];
+  s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
+  if (m.mass > Real(0)) {
+    const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
+    // A locked axis feels no gravity.
+    s.acceleration +=
+        Vec{m.inverse_mass.x > Real(0) ? g.x : Real(0), m.inverse_mass.y > Real(0) ? g.y : Real(0),
+            m.inverse_mass.z > Real(0) ? g.z : Real(0)};
+    s.constrained = held;
+    if (held || needs_inertia) {
+      s.I = world_inertia(m, bodies.pose[i].q);
+      s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
+    }
+  }
+  if (held) context.note(i);
+}
+
 }  // namespace
 
 void build_rows(WorldState& world) {
@@ -354,34 +296,26 @@ void build_rows(WorldState& world) {
   world.delta[0] = {};
   world.substep[0] = {};
   world.contacts_changed.assign(bodies.awake_end, 0);
-  // Bodies first: what a row reads of them, and which of them are held by a row.
+  // Bodies first: what a row reads of them, and which of them are held by a row. What nothing holds
+  // flies, and needs no inertia in world axes.
+  StepList<std::uint8_t> held(bodies.dense_count(), 0, &world.memory);
+  for (const Contact& contact : world.contacts) {
+    const Pair& pair = world.pairs[contact.pair];
+    held[bodies.dense_of[pair.body_a]] = held[bodies.dense_of[pair.body_b]] = 1;
+  }
+  const bool all_inertias = !world.joints.empty() || world.diagnostics.ledger ||
+                            (world.effects != nullptr && !world.effects->empty());
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;
-                      ++i) {
-                   world.delta[i] = {};
-                   SubstepBody& s = world.substep[i];
-                   s = {};
-                   const BodyMass& m = bodies.mass[i];
-                   s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
-                   if (m.mass > Real(0)) {
-                     const Vec g = m.gravity_scale * to_inner(world.settings.gravity);
-                     // A locked axis feels no gravity.
-                     s.acceleration += Vec{m.inverse_mass.x > Real(0) ? g.x : Real(0),
-                                           m.inverse_mass.y > Real(0) ? g.y : Real(0),
-                                           m.inverse_mass.z > Real(0) ? g.z : Real(0)};
-                     s.I = world_inertia(m, bodies.pose[i].q);
-                     s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
-                   }
-                   context.note(i);
-                 }
+                      ++i)
+                   begin_body(world, i, held[i] != 0, all_inertias, context);
                });
   for (const Contact& contact : world.contacts) {
     const Pair& pair = world.pairs[contact.pair];
-    const std::uint32_t a = bodies.info[pair.body_a].dense, b = bodies.info[pair.body_b].dense;
-    if (bodies.mass[a].mass > Real(0)) world.substep[a].constrained = true;
-    if (bodies.mass[b].mass > Real(0)) world.substep[b].constrained = true;
-    if (pair.driven) world.substep[a].driven = world.substep[b].driven = true;
+    if (!pair.driven) continue;
+    world.substep[bodies.dense_of[pair.body_a]].driven = true;
+    world.substep[bodies.dense_of[pair.body_b]].driven = true;
   }
   if (!world.joints.empty()) build_joints(world);
   world.rows.resize(count);
@@ -393,7 +327,8 @@ void build_rows(WorldState& world) {
   find_spinning_rows(world);
   find_adhesive_rows(world);
   world.bouncing_rows.clear();
-  for (std::uint32_t i = 0; i < count; ++i)
+  const bool bounces_in_time = !resolves_worst_first(world);
+  for (std::uint32_t i = 0; i < count && bounces_in_time; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);
   find_turned_rows(world);
   if (world.newton != nullptr && world.newton->count > 0) gather_newton_islands(world);

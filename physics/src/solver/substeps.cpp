@@ -7,15 +7,18 @@
 //     solve       one pass, overlap worked off softly
 //     drift       dp += h v; rotation by the torque-free flow with L fixed
 //     relax       one pass without the bias: the velocities that push out overlap do not stay
+//                 (as many of each as velocity_iterations says)
 //     trapezoid   dp += theta (h/2)(v_start - v_end): free fall, sliding and rolling become exact
 //     to
 //                 second order; theta is the share of the substep during which contacts slid
+#include <algorithm>
 #include <cmath>
 
 #include "effects/effect_world.h"
 #include "motion/body_motion.h"
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
+#include "solver/facet_cone.h"
 #include "solver/joints/joint_stages.h"
 #include "solver/newton/newton_solver.h"
 #include "solver/plain_bodies.h"
@@ -23,6 +26,7 @@
 #include "solver/row_velocities.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
+#include "solver/worst_first.h"
 #include "world/ledger_charges.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -122,7 +126,7 @@ void finish_body(WorldState& world, std::uint32_t i) {
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
-  if (keeps_momentum(world.settings.rotation))
+  if (turning_keeps_momentum(world.settings, world.bodies.mass[i]))
     delta.dq = turned_further(
         delta.dq,
         weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost));
@@ -130,17 +134,38 @@ void finish_body(WorldState& world, std::uint32_t i) {
 
 // Rolling and torsional friction of a row that has it, then friction, with a grain if it has one.
 // Returns whether the contact turns nevertheless.
-bool rub(WorldState& world, ContactRow<Real>& row, bool first_pass, RowVelocities<Real>& u,
-         Real& load, Real& sliding) {
+template <class Cone>
+bool rub_within(const Cone& cone, WorldState& world, ContactRow<Real>& row, bool first_pass,
+                RowVelocities<Real>& u, Real& load, Real& sliding) {
   if (row.turning == ContactRow<Real>::kNoTurning) {
-    solve_friction(row, u, load, sliding);
+    solve_friction(row, u, load, sliding, cone);
     return false;
   }
   TurningRow<Real>& turning = world.turning_rows[row.turning];
   if (first_pass) turning.impulse1 = turning.impulse2 = turning.impulse3 = Real(0);
   const bool turns = solve_turning(row, turning, u);
-  solve_friction(row, u, load, sliding, GrainCone<Real>{row.along});
+  solve_friction(row, u, load, sliding, GrainCone<Real, Cone>{cone, row.along});
   return turns;
+}
+bool rub(WorldState& world, ContactRow<Real>& row, bool first_pass, RowVelocities<Real>& u,
+         Real& load, Real& sliding) {
+  const FrictionCone cone = world.settings.friction_cone;
+  return cone == FrictionCone::Exact
+             ? rub_within(RoundCone{}, world, row, first_pass, u, load, sliding)
+             : rub_within(FacetCone{cone}, world, row, first_pass, u, load, sliding);
+}
+
+void solve_row(WorldState& world, ContactRow<Real>& row, Real inverse_h, bool first_pass) {
+  if (row.skip) return;
+  const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
+  RowVelocities<Real> u = read_velocities(world, row);
+  Real load = 0, sliding = 0;
+  RowCharge charged(world, row, world.diagnostics.ledger);
+  solve_normal(row, change, inverse_h, true, u);
+  charged.as(&EnergyLedger::normal, u);
+  rub(world, row, first_pass, u, load, sliding);
+  charged.as(&EnergyLedger::friction, u);
+  write_velocities(world, row, u);
 }
 
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
@@ -160,6 +185,9 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
 }
 
 void store_impulses(WorldState& world) {
+  const newton::CallsOfRows calls(world);
+  StepList<newton::Call> called(calls.listens() ? world.rows.size() : 0, newton::Call::None,
+                                &world.memory);
   parallel_for(world, static_cast<std::uint32_t>(world.rows.size()), tolerance::kRowGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t k = begin; k < end; ++k) {
@@ -175,8 +203,46 @@ void store_impulses(WorldState& world) {
                      contact.step_friction_impulse[i] +=
                          point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
                    }
+                   if (!called.empty()) called[k] = calls.of(row);
                  }
                });
+  if (calls.listens()) newton::hear_calls(world, called.data());
+}
+
+bool carried_something(const Contact& contact) {
+  for (int i = 0; i < contact.manifold.count; ++i)
+    if (contact.step_normal_impulse[i] > Real(0)) return true;
+  return false;
+}
+
+// Bodies of which the contacts were relaxed more often: those of the accurate solver need none of
+// it.
+std::uint32_t bodies_relaxed_more(WorldState& world) {
+  StepList<std::uint8_t> relaxed(world.bodies.awake_end, 0, &world.memory);
+  for (const ColorRange color : world.colors)
+    for (std::uint32_t k = color.begin; k < color.end; ++k) {
+      const ContactRow<Real>& row = world.rows[k];
+      for (const std::uint32_t body : {row.body_a, row.body_b})
+        if (world.overlaps_deeply[body] != 0) relaxed[body] = 1;
+    }
+  return static_cast<std::uint32_t>(std::count(relaxed.begin(), relaxed.end(), std::uint8_t{1}));
+}
+
+// Of what was made ready for this step, the report counts what was of use.
+void count_what_acted(WorldState& world) {
+  StepReport& report = world.report;
+  if (report.looked_ahead > 0) {
+    report.looked_ahead = 0;
+    for (const Contact& contact : world.contacts)
+      if (length_squared(contact.advance) > Real(0) && carried_something(contact))
+        ++report.looked_ahead;
+  }
+  report.deep_bodies = world.deep_overlap ? bodies_relaxed_more(world) : 0;
+  const auto count = [&](std::uint32_t row) {
+    if (carried_something(world.contacts[world.rows[row].contact])) ++report.fast_turning;
+  };
+  for (const TurnedRow& turned : world.turned_rows) count(turned.row);
+  for (const std::uint32_t row : world.spun_rows) count(row);
 }
 
 bool flies(const SubstepBody& s, const BodyMass& mass) {
@@ -212,7 +278,7 @@ void fly_body(WorldState& world, std::uint32_t i) {
   };
   half_kick();
   Rotation q = world.bodies.pose[i].q;
-  turn_freely(world.settings.rotation, mass, q, L, dt);
+  turn(world.settings, mass, q, L, dt);
   half_kick();
   velocity.w = angular_velocity_of(mass, q, L);
   if (!is_finite(q)) return;
@@ -224,8 +290,10 @@ void fly_body(WorldState& world, std::uint32_t i) {
 
 void run_substeps(WorldState& world) {
   const int extra_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses - 1 : 0;
+  const int iterations = world.settings.velocity_iterations;
   const bool joints = !world.joints.empty();
   const bool newton = world.newton != nullptr && world.newton->count > 0;
+  const bool worst_first = resolves_worst_first(world);
   const bool effects = world.effects != nullptr && !world.effects->empty();
   const bool ledger = world.diagnostics.ledger;
   JobSystem* const jobs = world.jobs;
@@ -268,20 +336,15 @@ void run_substeps(WorldState& world) {
       if (ledger) charge_warm_start(world, row, energy, before, u);
     });
     if (ledger) charge(world, &EnergyLedger::normal);
-    if (joints) solve_joints(world);
-    if (ledger) charge(world, &EnergyLedger::joints);
-    for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
-      if (row.skip) return;
-      const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
-      RowVelocities<Real> u = read_velocities(world, row);
-      Real load = 0, sliding = 0;
-      RowCharge charged(world, row, ledger);
-      solve_normal(row, change, pass.inverse_h, true, u);
-      charged.as(&EnergyLedger::normal, u);
-      rub(world, row, true, u, load, sliding);
-      charged.as(&EnergyLedger::friction, u);
-      write_velocities(world, row, u);
-    });
+    for (int i = 0; i < iterations; ++i) {
+      const bool first = i == 0;
+      if (ledger && !first) charge(world, &EnergyLedger::normal);
+      if (joints) solve_joints(world);
+      if (ledger) charge(world, &EnergyLedger::joints);
+      for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
+        solve_row(world, row, pass.inverse_h, first);
+      });
+    }
     if (newton) solve_newton_islands(world);
     if (ledger) charge(world, &EnergyLedger::normal);
     bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
@@ -304,7 +367,9 @@ void run_substeps(WorldState& world) {
           only_deep);
     };
     for (int i = 0; i < extra_passes; ++i) relax(false, true);
+    for (int i = 1; i < iterations; ++i) relax(false, false);
     relax(true, false);
+    if (worst_first) resolve_worst_first(world);
     if (ledger) charge(world, &EnergyLedger::normal);
     bodies.finish([&](std::uint32_t i) { return trapezoid_weight(world, i); },
                   [&](std::uint32_t i) { finish_body(world, i); });
@@ -315,6 +380,7 @@ void run_substeps(WorldState& world) {
   if (effects) end_effects(world);
   empty_blocks(world);
   store_impulses(world);
+  count_what_acted(world);
   if (joints) store_joints(world);
   if (newton) report_newton_islands(world);
   world.last_h = world.h;

@@ -5,21 +5,24 @@
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
 #include "solver/newton/newton_solver.h"
+#include "world/forced.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// [rad/s] of the turning that shows: about the axis of a body of revolution nothing changes.
-Real visible_turning(const BodyMass& m, Rotation q, Vec w) {
-  const bool xy = m.moments.x == m.moments.y, yz = m.moments.y == m.moments.z;
-  const bool xz = m.moments.x == m.moments.z;
-  if (xy == yz && yz == xz) return length(w);
-  Vec in_body = inverse_rotate(q, w);
-  set_component(in_body, xy ? 2 : (yz ? 0 : 1), Real(0));
-  return length(in_body);
+// [rad] in a step, above which a body turns fast.
+Real fast_turn(const WorldState& world) {
+  return threshold(world.settings, PlanItem::FastTurns, tolerance::kFastTurn);
 }
+
+bool has_acted(const ContactRow<Real>& row) {
+  for (int i = 0; i < row.count; ++i)
+    if (row.points[i].impulse_sum > Real(0)) return true;
+  return false;
+}
+
 bool is_isotropic(const BodyMass& m) {
   return m.moments.x == m.moments.y && m.moments.y == m.moments.z;
 }
@@ -74,16 +77,26 @@ void renew(WorldState& world, TurnedRow& turned) {
 
 }  // namespace
 
+Real visible_turning(const BodyMass& m, Rotation q, Vec w) {
+  const bool xy = m.moments.x == m.moments.y, yz = m.moments.y == m.moments.z;
+  const bool xz = m.moments.x == m.moments.z;
+  if (xy == yz && yz == xz) return length(w);
+  Vec in_body = inverse_rotate(q, w);
+  set_component(in_body, xy ? 2 : (yz ? 0 : 1), Real(0));
+  return length(in_body);
+}
+
 void find_turned_rows(WorldState& world) {
   world.turned_rows.clear();
   world.spun_rows.clear();
   bool any = false;
+  const Real limit = fast_turn(world);
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
     SubstepBody& s = world.substep[i];
     s.turned = s.constrained && !s.jointed &&
                world.dt * visible_turning(world.bodies.mass[i], world.bodies.pose[i].q,
                                           world.bodies.velocity[i].w) >
-                   tolerance::kFastTurn;
+                   limit;
     any |= s.turned;
   }
   if (!any) return;
@@ -113,13 +126,14 @@ void renew_turned_rows(WorldState& world) {
 
 void renew_bouncing_rows(WorldState& world) {
   StepList<std::uint8_t> turns(&world.memory);  // per dense body
+  const Real limit = fast_turn(world);
   const auto look_at = [&](std::uint32_t body) {
     const SubstepBody& s = world.substep[body];
     if (!s.constrained || s.jointed || is_isotropic(world.bodies.mass[body])) return;
     const Vec half_turn{world.delta[body].dq.x, world.delta[body].dq.y, world.delta[body].dq.z};
     const Real turn =
         std::max(Real(2) * length(half_turn), world.dt * length(world.bodies.velocity[body].w));
-    if (!(turn > tolerance::kFastTurn)) return;
+    if (!(turn > limit)) return;
     if (turns.empty()) turns.assign(world.bodies.awake_end, 0);
     turns[body] = 1;
   };
@@ -136,6 +150,7 @@ void renew_bouncing_rows(WorldState& world) {
   for (const std::uint32_t k : world.bouncing_rows) {
     ContactRow<Real>& row = world.rows[k];
     if (turns[row.body_a] == 0 && turns[row.body_b] == 0) continue;
+    if (has_acted(row)) ++world.report.fast_turning;
     if (turns[row.body_a] != 0) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
@@ -146,15 +161,17 @@ namespace {
 
 bool find_spun_bodies(WorldState& world) {
   const bool newton = world.newton != nullptr && world.newton->count > 0;
+  const Real limit = fast_turn(world);
   bool any = false;
+  if (world.rows.empty()) return false;
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
     SubstepBody& s = world.substep[i];
     if (!s.constrained || s.split || s.turned || s.spun) continue;
     const Vec w = world.bodies.velocity[i].w;
     const BodyMass& mass = world.bodies.mass[i];
-    if (!(world.dt * length(w) > tolerance::kFastTurn) || is_isotropic(mass)) continue;
+    if (!(world.dt * length(w) > limit) || is_isotropic(mass)) continue;
     if (newton && in_newton_island(world, i)) continue;
-    s.spun = world.dt * visible_turning(mass, orientation_now(world, i), w) > tolerance::kFastTurn;
+    s.spun = world.dt * visible_turning(mass, orientation_now(world, i), w) > limit;
     any |= s.spun;
   }
   return any;

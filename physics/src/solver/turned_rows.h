@@ -5,6 +5,7 @@
 #pragma once
 
 #include "solver/contact_row.h"
+#include "world/body_store.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -16,6 +17,8 @@ struct TurnedRow {
   BodyDelta a, b;
 };
 
+// [rad/s] of the turning that shows: about the axis of a body of revolution nothing changes.
+Real visible_turning(const BodyMass& m, Rotation q, Vec w);
 // Which rows of this step are such, once they are built.
 void find_turned_rows(WorldState& world);
 // Tells them, and the inertia of their bodies, as of now. Angular velocity and momentum of the

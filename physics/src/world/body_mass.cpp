@@ -127,17 +127,19 @@ void update_collider_frames(WorldState& world, std::uint32_t body) {
   BodyInfo& info = world.bodies.info[body];
   if (world.effects != nullptr) world.effects->forget_surface(body);
   info.size = 0;
-  info.radius = 0;
+  info.radius = info.turning_radius = 0;
   for (const std::uint32_t slot : info.colliders) {
     ColliderInfo& collider = world.colliders.info[slot];
     const LocalPose& local = collider.component.pose;
     collider.in_body.p = inverse_rotate(info.R_BP, to_inner(local.position) - info.center_B);
     collider.in_body.q = normalized(conjugate(info.R_BP) * to_inner(local.orientation));
     collider.thickness = smallest_thickness(collider.shape);
+    collider.farthest = length(collider.in_body.p) + bounding_radius(collider.shape);
     if (collider.component.is_sensor) continue;
     info.size = info.size > Real(0) ? std::min(info.size, collider.thickness) : collider.thickness;
-    info.radius =
-        std::max(info.radius, length(collider.in_body.p) + bounding_radius(collider.shape));
+    info.radius = std::max(info.radius, collider.farthest);
+    // A ball about the centre turns on the spot.
+    info.turning_radius = std::max(info.turning_radius, collider.farthest - collider.shape.radius);
   }
 }
 

@@ -23,13 +23,14 @@ void BodyStore::swap_dense(std::uint32_t i, std::uint32_t j) {
   std::swap(mass[i], mass[j]);
   std::swap(force[i], force[j]);
   std::swap(slot_of[i], slot_of[j]);
-  info[slot_of[i]].dense = i;
-  info[slot_of[j]].dense = j;
+  dense_of[slot_of[i]] = info[slot_of[i]].dense = i;
+  dense_of[slot_of[j]] = info[slot_of[j]].dense = j;
 }
 
 std::uint32_t BodyStore::create() {
   const std::uint32_t slot = take_slot(info, free_slots);
-  info[slot].dense = dense_count();
+  dense_of.resize(info.size());
+  dense_of[slot] = info[slot].dense = dense_count();
   push_dense(slot);
   ++alive_count;
   return slot;
@@ -52,6 +53,7 @@ void BodyStore::wake(std::uint32_t slot) {
   if (is_awake(slot)) return;
   swap_dense(info[slot].dense, awake_end);
   ++awake_end;
+  some_called |= info[slot].newton_calls + info[slot].newton_steps + info[slot].newton_pause > 0;
 }
 
 void BodyStore::rest(std::uint32_t slot) {

@@ -64,15 +64,18 @@ struct BodyInfo {  // what states are read by comes first
   bool can_sleep = true;
   bool continuous = false;  // stopped by dynamic bodies too
   std::uint32_t dense = 0;
-  Vec center_B{0, 0, 0};          // centre of mass in B
-  Rotation R_BP{0, 0, 0, 1};      // principal axes in B
-  std::uint32_t island = kNone;   // sleeping island, or kNone
-  Real rest_time = 0;             // [s] at rest without a break
-  std::uint8_t newton_steps = 0;  // for which it stays with the accurate solver (newton/choose.h)
-  Real size = 0;                  // [m] smallest thickness over its colliders
-  Real radius = 0;                // [m] farthest point of its colliders from the centre of mass
-  Vec acceleration{0, 0, 0};      // [m/s^2] from forces and gravity in the last step
-  MassProperties properties;      // in B
+  Vec center_B{0, 0, 0};         // centre of mass in B
+  Rotation R_BP{0, 0, 0, 1};     // principal axes in B
+  std::uint32_t island = kNone;  // sleeping island, or kNone
+  Real rest_time = 0;            // [s] at rest without a break
+  // Of the choice of the accurate solver (newton/choose.h), in steps: in a row in which it has
+  // called; for which it stays with it; for which its calls are not heard.
+  std::uint8_t newton_calls = 0, newton_steps = 0, newton_pause = 0;
+  Real size = 0;              // [m] smallest thickness over its colliders
+  Real radius = 0;            // [m] farthest point of its colliders from the centre of mass
+  Real turning_radius = 0;    // [m] farthest one that a turn carries along (no ball's)
+  Vec acceleration{0, 0, 0};  // [m/s^2] from forces and gravity in the last step
+  MassProperties properties;  // in B
   std::vector<std::uint32_t> colliders;  // slots
   std::vector<ColliderId> collider_ids;
 };
@@ -85,7 +88,7 @@ class BodyStore {
   void destroy(std::uint32_t slot);
   void wake(std::uint32_t slot);  // into the awake part of the dense arrays
   void rest(std::uint32_t slot);  // out of it
-  [[nodiscard]] bool is_awake(std::uint32_t slot) const { return info[slot].dense < awake_end; }
+  [[nodiscard]] bool is_awake(std::uint32_t slot) const { return dense_of[slot] < awake_end; }
   [[nodiscard]] std::uint32_t dense_count() const {
     return static_cast<std::uint32_t>(slot_of.size());
   }
@@ -99,8 +102,10 @@ class BodyStore {
   std::uint32_t awake_begin = 1, awake_end = 1;
 
   std::vector<BodyInfo> info;
+  std::vector<std::uint32_t> dense_of;    // info[slot].dense, close together for the stages' loops
   std::vector<std::uint32_t> free_slots;  // reused last in, first out
   std::uint32_t alive_count = 0;
+  bool some_called = false;  // some awake body may have called for the accurate solver
 
  private:
   void push_dense(std::uint32_t slot);

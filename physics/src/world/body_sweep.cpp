@@ -1,6 +1,7 @@
 #include "world/body_sweep.h"
 
 #include "motion/rotation_flow.h"
+#include "world/forced.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -31,7 +32,8 @@ Sweep sweep_of_step(const WorldState& world, std::uint32_t dense, PosVec referen
   }
   const bool steady = mass.angular_locks != 0 || force.angular_damping > Real(0) ||
                       length_squared(force.torque) > Real(0) ||
-                      world.settings.rotation != RotationMethod::Exact ||
+                      rotation_of(world.settings) != RotationMethod::Exact ||
+                      lacks_gyroscopic_term(world.settings, mass) ||
                       classify_inertia(mass.inverse_moments) == RotationKind::Isotropic;
   if (steady) {
     sweep.turn = turn_between(sweep.start, turned * sweep.start, expected);

@@ -54,7 +54,7 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
     const BodyVelocity& velocity = bodies.velocity[body.dense];
     // Turning moves a point by at most |w| times its distance from the centre of mass, and never
     // out of the ball around it.
-    const Real far = length(collider.in_body.p) + bounding_radius(collider.shape);
+    const Real far = collider.farthest;
     turn = std::min(world.dt * length(velocity.w) * far, Real(2) * far);
     const Vec t{turn, turn, turn};
     ball = {far, far, far};
@@ -77,13 +77,49 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
           turn};
 }
 
+// Whether the ball of all attitudes of a collider stays in its box in the next step, in which only
+// gravity acts on it: then the collider does. Cheaper than its reach.
+bool ball_stays_in_proxy(const WorldState& world, const ColliderInfo& collider) {
+  if (world.effects != nullptr && !world.effects->empty()) return false;
+  const std::uint32_t dense = world.bodies.dense_of[collider.body];
+  const PosVec x = world.bodies.pose[dense].x;
+  const PosVec way = cast<PosReal>(world.dt * world.bodies.velocity[dense].v);
+  const Real slops = tolerance::kMarginSlops * tolerance::kSlopFraction * skin_of(collider);
+  const Real falls = world.dt * world.dt * static_cast<Real>(world.settings.gravity.norm());
+  const auto room = static_cast<PosReal>(collider.farthest + slops + falls);
+  const PosVec r{room, room, room};
+  return contains(world.trees.of(collider).box(collider.proxy), swept({x - r, x + r}, way));
+}
+
+void set_reach(WorldState& world, std::uint32_t slot, const WorldAabb& box) {
+  if (world.reach.size() <= slot) {
+    world.reach.resize(slot + 1);
+    world.box_notes.resize(slot + 1);
+  }
+  world.reach[slot] = box;
+  world.box_notes[slot].old_reach = false;
+}
+
 }  // namespace
+
+void note_new_box(WorldState& world, std::uint32_t slot) {
+  if (world.box_notes[slot].is_new) return;
+  world.box_notes[slot].is_new = true;
+  world.new_boxes.push_back(slot);
+}
 
 PosVec update_reach(WorldState& world, std::uint32_t slot) {
   const Reach reach = reach_in_next_step(world, world.colliders.info[slot]);
-  if (world.reach.size() <= slot) world.reach.resize(slot + 1);
-  world.reach[slot] = reach.box;
+  set_reach(world, slot, reach.box);
   return reach.path;
+}
+
+bool may_leave_proxy(WorldState& world, std::uint32_t slot) {
+  if (!world.box_notes[slot].paired && ball_stays_in_proxy(world, world.colliders.info[slot])) {
+    world.box_notes[slot].old_reach = true;
+    return false;
+  }
+  return leaves_proxy(world, slot);
 }
 
 bool leaves_proxy(WorldState& world, std::uint32_t slot) {
@@ -100,15 +136,21 @@ void give_proxy(WorldState& world, std::uint32_t slot) {
   ColliderInfo& collider = world.colliders.info[slot];
   AabbTree& tree = world.trees.of(collider);
   const Reach reach = reach_in_next_step(world, collider);
-  if (world.reach.size() <= slot) world.reach.resize(slot + 1);
-  world.reach[slot] = reach.box;
+  set_reach(world, slot, reach.box);
+  const BoxNotes& notes = world.box_notes[slot];
+  note_new_box(world, slot);
   WorldAabb fat = reach.box;
   if (!collider.is_static) {
     const Real spare = tolerance::kFatBoxFraction * skin_of(collider);
+    auto steps = static_cast<PosReal>(tolerance::kFatBoxSteps);
+    const PosReal path = length(reach.path);
+    if (!notes.paired && path > PosReal(0))
+      steps =
+          std::clamp(static_cast<PosReal>(tolerance::kFreeBoxFraction * collider.farthest) / path,
+                     steps, static_cast<PosReal>(tolerance::kFreeBoxSteps));
     // What spins would soon turn out of a close box: it gets one that it cannot turn out of.
-    if (tolerance::kFatBoxSteps * reach.turn > spare) fat = union_of(fat, reach.ball);
-    fat = grown(swept(fat, static_cast<PosReal>(tolerance::kFatBoxSteps) * reach.path),
-                static_cast<PosReal>(spare));
+    if (static_cast<Real>(steps) * reach.turn > spare) fat = union_of(fat, reach.ball);
+    fat = grown(swept(fat, steps * reach.path), static_cast<PosReal>(spare));
   }
   if (collider.proxy == AabbTree::kNull) {
     collider.proxy = tree.insert(fat, slot);
@@ -145,6 +187,14 @@ void refresh_proxies(WorldState& world) {
 
 }  // namespace
 
+void note_paired(WorldState& world) {
+  for (const std::uint32_t slot : world.new_boxes) world.box_notes[slot].is_new = false;
+  world.new_boxes.clear();
+  for (BoxNotes& notes : world.box_notes) notes.paired = false;
+  for (const Pair& pair : world.pairs)
+    world.box_notes[pair.collider_a()].paired = world.box_notes[pair.collider_b()].paired = true;
+}
+
 void find_pairs(WorldState& world) {
   refresh_proxies(world);
   std::vector<std::uint32_t>& seekers = world.query_list;
@@ -178,6 +228,9 @@ void find_pairs(WorldState& world) {
                        world.new_keys.end());
   world.new_pairs.clear();
   for (const std::uint64_t key : world.new_keys) world.new_pairs.push_back(make_pair(world, key));
+  for (const Pair& pair : world.new_pairs)
+    for (const std::uint32_t slot : {pair.collider_a(), pair.collider_b()})
+      if (world.box_notes[slot].old_reach) update_reach(world, slot);
   world.pairs.insert_sorted(world.new_pairs);
   for (const std::uint32_t slot : seekers)
     if (slot < world.colliders.info.size()) world.colliders.info[slot].query_pairs = false;

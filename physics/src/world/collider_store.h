@@ -24,6 +24,7 @@ struct ColliderInfo {
   CollisionShape shape;
   Transform in_body;   // shape placed relative to the centre of mass, principal axes
   Real thickness = 0;  // [m]
+  Real farthest = 0;   // [m] point from the body's centre of mass, at most
 };
 
 // The boxes of all colliders, in three trees: a step refits only that of what moves, and its

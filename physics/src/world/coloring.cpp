@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "solver/newton/newton_solver.h"
+#include "solver/worst_first.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -14,7 +15,8 @@ namespace {
 
 constexpr int kColors = 64;  // bits of a body's mask; the last one is the overflow
 constexpr int kOverflow = kColors - 1;
-constexpr int kUncolored = kColors;  // rows that Newton's method solves: behind all others
+// Rows that the passes leave to Newton's method, or to the worst-first resolver: behind all others.
+constexpr int kUncolored = kColors;
 
 }  // namespace
 
@@ -22,10 +24,11 @@ void color_contacts(WorldState& world) {
   const BodyStore& bodies = world.bodies;
   world.color_mask.assign(bodies.awake_end, 0);
   const auto mask_of = [&](std::uint32_t body) -> std::uint64_t* {
-    const std::uint32_t dense = bodies.info[body].dense;
+    const std::uint32_t dense = bodies.dense_of[body];
     return bodies.mass[dense].mass > Real(0) && dense < bodies.awake_end ? &world.color_mask[dense]
                                                                          : nullptr;
   };
+  const bool worst_first = resolves_worst_first(world);
   const bool newton = world.newton != nullptr && world.newton->count > 0;
   std::uint32_t counts[kColors + 1] = {};
   StepList<std::uint8_t> color_of(world.contacts.size(), &world.memory);
@@ -33,8 +36,8 @@ void color_contacts(WorldState& world) {
     const Pair& pair = world.pairs[world.contacts[i].pair];
     std::uint64_t* a = mask_of(pair.body_a);
     std::uint64_t* b = mask_of(pair.body_b);
-    if (newton && (in_newton_island(world, bodies.info[pair.body_a].dense) ||
-                   in_newton_island(world, bodies.info[pair.body_b].dense))) {
+    if (worst_first || (newton && (in_newton_island(world, bodies.dense_of[pair.body_a]) ||
+                                   in_newton_island(world, bodies.dense_of[pair.body_b])))) {
       color_of[i] = kUncolored;
       continue;
     }

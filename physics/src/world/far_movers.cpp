@@ -3,36 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/forced.h"
 #include "world/tolerances.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// Farthest point of a body from its centre that a turn carries along: a ball about the centre turns
-// on the spot.
-Real turning_radius(const WorldState& world, const BodyInfo& info) {
-  Real farthest = 0;
-  for (const std::uint32_t slot : info.colliders) {
-    const ColliderInfo& collider = world.colliders.info[slot];
-    if (collider.component.is_sensor) continue;
-    farthest = std::max(farthest, length(collider.in_body.p) + bounding_radius(collider.shape) -
-                                      collider.shape.radius);
-  }
-  return farthest;
-}
+// [m] Where every body is to be followed: what is this still has gone nowhere.
+constexpr Real kNoWay = std::numeric_limits<Real>::min();
 
 bool moved_far(const WorldState& world, std::uint32_t dense) {
   const BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
   const Real path = length_squared(world.delta[dense].dp);
   const Real spin = world.dt * world.dt * length_squared(world.bodies.velocity[dense].w);
-  const Real limit = tolerance::kContinuousFraction * info.size;
+  const Real limit = threshold(world.settings, PlanItem::Continuous,
+                               tolerance::kContinuousFraction * info.size, kNoWay);
   // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
   if (!(Real(2) * (path + spin * info.radius * info.radius) > limit * limit)) return false;
   return limit > Real(0) && !info.disabled &&
-         std::sqrt(path) + std::sqrt(spin) * turning_radius(world, info) > limit;
+         std::sqrt(path) + std::sqrt(spin) * info.turning_radius > limit;
 }
 
 }  // namespace
+
+Real path_ahead(const WorldState& world, std::uint32_t body, Real time) {
+  const BodyInfo& info = world.bodies.info[body];
+  const BodyVelocity& u = world.bodies.velocity[info.dense];
+  const Real spin = length(u.w);
+  return time * (length(u.v) + (spin > Real(0) ? spin * info.turning_radius : Real(0)));
+}
 
 StepList<std::uint32_t> bodies_that_moved_far(WorldState& world) {
   const BodyStore& bodies = world.bodies;

@@ -58,12 +58,23 @@ void renew_boxes(WorldState& world, const std::vector<std::uint32_t>& moved) {
   parallel_for(world, count, tolerance::kBodyGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i)
       for (const std::uint32_t collider : world.bodies.info[moved[i]].colliders)
-        if (leaves_proxy(world, collider)) leaves[i] = 1;
+        if (may_leave_proxy(world, collider)) leaves[i] = 1;
   });
   for (std::uint32_t i = 0; i < count; ++i) {
     if (leaves[i] == 0) continue;
     for (const std::uint32_t collider : world.bodies.info[moved[i]].colliders)
       update_proxy(world, collider, false);
+  }
+}
+
+// A kinematic body that has been told to stand still costs nothing.
+void rest_standing_kinematic_bodies(WorldState& world) {
+  BodyStore& bodies = world.bodies;
+  for (const std::uint32_t body : world.moved) {
+    const BodyVelocity& velocity = bodies.velocity[bodies.dense_of[body]];
+    if (bodies.info[body].type == MotionType::Kinematic && length_squared(velocity.v) == Real(0) &&
+        length_squared(velocity.w) == Real(0))
+      bodies.rest(body);
   }
 }
 
@@ -91,14 +102,7 @@ void finalize_bodies(WorldState& world) {
   if (!std::is_sorted(moved.begin(), moved.end())) std::sort(moved.begin(), moved.end());
   for (const std::uint32_t body : to_quarantine) quarantine(world, body);
   renew_boxes(world, moved);
-  for (const std::uint32_t body : moved) {
-    // A kinematic body that has been told to stand still costs nothing.
-    const std::uint32_t dense = bodies.info[body].dense;
-    if (bodies.info[body].type == MotionType::Kinematic &&
-        length_squared(bodies.velocity[dense].v) == Real(0) &&
-        length_squared(bodies.velocity[dense].w) == Real(0))
-      bodies.rest(body);
-  }
+  if (world.counts.kinematic > 0) rest_standing_kinematic_bodies(world);
   note_contact_events(world);
   if (!world.gathering.sensors.empty()) update_overlaps(world);
   world.time += static_cast<double>(world.report.dt);

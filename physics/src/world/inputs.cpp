@@ -127,7 +127,10 @@ void append(std::vector<double>& out, const WorldSettings& s) {
                    as_number(s.contact_damping_ratio), static_cast<double>(s.rotation),
                    s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0, as_number(s.time_to_sleep),
                    s.profiling ? 1.0 : 0.0, static_cast<double>(s.contact_solver),
-                   static_cast<double>(s.joint_order)});
+                   static_cast<double>(s.joint_order), static_cast<double>(s.velocity_iterations),
+                   static_cast<double>(s.friction_cone)});
+  append_long(out, s.forced.items_off());
+  append_long(out, s.forced.items_on());
 }
 
 double NumberReader::number() {
@@ -270,8 +273,12 @@ WorldSettings NumberReader::settings() {
   s.sleeping = flag();
   s.time_to_sleep = real();
   s.profiling = flag();
-  s.contact_solver = choice<ContactSolver>(*this, 3, ok_);
+  s.contact_solver = choice<ContactSolver>(*this, kContactSolverCount, ok_);
   s.joint_order = static_cast<int>(word());
+  s.velocity_iterations = static_cast<int>(word());
+  s.friction_cone = choice<FrictionCone>(*this, kFrictionConeCount, ok_);
+  const std::uint64_t items_off = long_word();
+  s.forced = PlanChoices(items_off, long_word());
   return s;
 }
 

@@ -236,6 +236,7 @@ void wake_body(WorldState& world, std::uint32_t body) {
     for (const std::uint32_t collider : sleeper.colliders) {
       ColliderInfo& c = world.colliders.info[collider];
       world.trees.set_asleep(c, collider, false);
+      note_new_box(world, collider);  // it may have been moved while it slept
       if (!c.query_pairs) {
         c.query_pairs = true;
         world.query_list.push_back(collider);

@@ -208,6 +208,16 @@ void charge_drift(WorldState& world) {
   charge(world, &EnergyLedger::integrator);
 }
 
+// No velocity pays for the way. Turning a body changes the energy of its angular momentum.
+void charge_shifts(WorldState& world) {
+  LedgerBook& book = world.ledger;
+  for_dynamic(world, [&](std::uint32_t i) {
+    book.energy.recovery -= static_cast<double>(world.bodies.mass[i].mass) *
+                            dot(gravity_on(world, i), wide(world.delta[i].dp - book.place[i]));
+  });
+  charge(world, &EnergyLedger::integrator);
+}
+
 void charge_finish(WorldState& world) {
   LedgerBook& book = world.ledger;
   book.pending = false;

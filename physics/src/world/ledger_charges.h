@@ -18,6 +18,7 @@ void charge_bounces(WorldState& world);
 void charge_kick(WorldState& world);          // gravity, forces, damping
 void charge_joint_flight(WorldState& world);  // groups by themselves
 void charge_drift(WorldState& world);
+void charge_shifts(WorldState& world);  // bodies moved apart where they stand
 void charge_finish(WorldState& world);  // of a substep
 void weigh_paths(WorldState& world);    // gravity's work, once the paths are final
 void close_ledger(WorldState& world);   // at the end of the step

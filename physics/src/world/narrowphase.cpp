@@ -4,6 +4,7 @@
 
 #include "collision/collide_parts.h"
 #include "world/body_sweep.h"
+#include "world/forced.h"
 #include "world/inner_edges.h"
 #include "world/one_way.h"
 #include "world/recycling.h"
@@ -19,7 +20,7 @@ constexpr Real kMatchFraction = Real(0.02);
 
 // The shape of a collider placed relative to a reference point near the contact.
 Transform placed_from(const WorldState& world, const ColliderInfo& collider, PosVec reference) {
-  const BodyPose& pose = world.bodies.pose[world.bodies.info[collider.body].dense];
+  const BodyPose& pose = world.bodies.pose[world.bodies.dense_of[collider.body]];
   const Vec offset = rotate(pose.q, collider.in_body.p);
   const Rotation q = pose.q * collider.in_body.q;
   const PosVec p = pose.x - reference + cast<PosReal>(offset);
@@ -133,7 +134,9 @@ bool find_first_touch(const WorldState& world, const Pair& pair, const ColliderI
   const Vec v = world.bodies.velocity[info_b.dense].v - world.bodies.velocity[info_a.dense].v;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   const Vec path = world.dt * v;
-  if (length(path) <= tolerance::kSweptFraction * thickness) return false;
+  const Real far =
+      threshold(world.settings, PlanItem::LookAhead, tolerance::kSweptFraction * thickness);
+  if (length(path) <= far) return false;
   const Num t = first_touch(pair, a, xa, b, xb, path);
   if (!(t > Num(0))) return false;
   advance = static_cast<Real>(t) * path;
@@ -182,6 +185,14 @@ void collide_pair_of_parts(const WorldState& world, std::uint32_t index, const P
   }
 }
 
+// Only a new box can have parted from another.
+bool boxes_have_parted(const WorldState& world, std::uint32_t slot_a, std::uint32_t slot_b) {
+  if (!world.box_notes[slot_a].is_new && !world.box_notes[slot_b].is_new) return false;
+  const ColliderInfo& a = world.colliders.info[slot_a];
+  const ColliderInfo& b = world.colliders.info[slot_b];
+  return !overlaps(world.trees.of(a).box(a.proxy), world.trees.of(b).box(b.proxy));
+}
+
 // Appends the contacts of one pair to `out`.
 void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& out) {
   const Pair& pair = world.pairs[index];
@@ -191,18 +202,16 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
   const std::uint32_t slot_a = pair.collider_a(), slot_b = pair.collider_b();
   const bool some_awake = bodies.is_awake(pair.body_a) || bodies.is_awake(pair.body_b);
   const bool meet = some_awake && overlaps(world.reach[slot_a], world.reach[slot_b]);
-  const ColliderInfo& a = world.colliders.info[slot_a];
-  const ColliderInfo& b = world.colliders.info[slot_b];
   if (!meet) {
-    const WorldAabb& box_a = world.trees.of(a).box(a.proxy);
-    const WorldAabb& box_b = world.trees.of(b).box(b.proxy);
     // A sensor that came to rest goes on seeing what sleeps in it.
     found.overlaps = pair.sensor && pair.touching && !some_awake;
-    found.gone = !overlaps(box_a, box_b) || (!some_awake && !found.overlaps);
+    found.gone = boxes_have_parted(world, slot_a, slot_b) || (!some_awake && !found.overlaps);
     return;
   }
+  const ColliderInfo& a = world.colliders.info[slot_a];
+  const ColliderInfo& b = world.colliders.info[slot_b];
   const PosVec reference =
-      bodies.pose[bodies.info[pair.relative_to_b ? pair.body_b : pair.body_a].dense].x;
+      bodies.pose[bodies.dense_of[pair.relative_to_b ? pair.body_b : pair.body_a]].x;
   const Transform xa = placed_from(world, a, reference), xb = placed_from(world, b, reference);
   if (pair.sensor) {
     Manifold manifold;
@@ -322,6 +331,7 @@ void take_findings(WorldState& world) {
     } else if (!found.kept) {
       std::copy(contacts.begin(), contacts.end(), to.begin() + pair.first_contact);
     }
+    if (found.kept) ++world.report.kept_pairs;
     pair.contact_count = found.count;
     pair.touching = found.count > 0 || found.overlaps;
     pair.passage = found.passage;
@@ -336,7 +346,7 @@ void take_findings(WorldState& world) {
 
 // Dense index of a body that contacts push; 0, the world itself, for any other one.
 std::uint32_t dense_if_pushed(const BodyStore& bodies, std::uint32_t body) {
-  const std::uint32_t dense = bodies.info[body].dense;
+  const std::uint32_t dense = bodies.dense_of[body];
   return dense < bodies.awake_end && bodies.mass[dense].mass > Real(0) ? dense : 0;
 }
 
@@ -373,6 +383,8 @@ void report_contacts(WorldState& world) {
   report.candidate_pairs = static_cast<std::uint32_t>(world.pairs.size());
   for (const Pair& pair : world.pairs) report.touching_pairs += pair.contact_count > 0 ? 1 : 0;
   world.deep_overlap = false;
+  const Real deep_slops =
+      threshold(world.settings, PlanItem::DeepOverlap, tolerance::kDeepSlops, Real(-1));
   for (const Contact& contact : world.contacts) {
     report.contact_points += static_cast<std::uint32_t>(contact.manifold.count);
     if (length_squared(contact.advance) > Real(0)) ++report.looked_ahead;
@@ -380,7 +392,7 @@ void report_contacts(WorldState& world) {
     for (int k = 0; k < contact.manifold.count; ++k)
       depth = std::max(depth, -contact.manifold.points[k].separation);
     report.largest_penetration = std::max(report.largest_penetration, static_cast<double>(depth));
-    if (depth > tolerance::kDeepSlops * world.pairs[contact.pair].slop) note_depth(world, contact);
+    if (depth > deep_slops * world.pairs[contact.pair].slop) note_depth(world, contact);
   }
 }
 
@@ -395,6 +407,7 @@ void collide_pairs(WorldState& world) {
     collide_all(world);
   }
   take_findings(world);
+  note_paired(world);
   drop_hidden_contacts(world);
   report_contacts(world);
   spread_depth(world);

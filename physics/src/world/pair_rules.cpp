@@ -49,6 +49,15 @@ void combine_materials(const MaterialTable& table, const Material& a, const Mate
       own.torsional_friction.value_or(std::max(a.torsional_friction, b.torsional_friction));
 }
 
+void leave_out_what_is_forced_off(const PlanChoices& forced, Pair& pair) {
+  if (forced.off(PlanItem::Friction)) pair.friction = Real(0);
+  if (forced.off(PlanItem::Restitution)) pair.restitution = Real(0);
+  if (forced.off(PlanItem::RollingFriction)) pair.rolling = pair.torsional = Real(0);
+  if (forced.off(PlanItem::SurfaceVelocity)) pair.driven = false;
+  if (forced.off(PlanItem::AnisotropicFriction)) pair.grained = false;
+  if (forced.off(PlanItem::Adhesion)) pair.adhesion = Real(0);
+}
+
 }  // namespace
 
 bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t collider_b) {
@@ -71,7 +80,9 @@ bool may_meet(const WorldState& world, std::uint32_t collider_a, std::uint32_t c
   return filters_meet(a.component.filter, b.component.filter);
 }
 
-Pair make_pair(const WorldState& world, std::uint64_t key) {
+namespace {
+
+Pair make_pair_unforced(const WorldState& world, std::uint64_t key) {
   Pair pair;
   pair.key = key;
   const ColliderInfo& a = world.colliders.info[pair.collider_a()];
@@ -91,8 +102,7 @@ Pair make_pair(const WorldState& world, std::uint64_t key) {
   return pair;
 }
 
-Pair remake_pair(const WorldState& world, const Pair& old) {
-  Pair pair = make_pair(world, old.key);
+Pair with_memory(Pair pair, const Pair& old) {
   pair.first_contact = old.first_contact;
   pair.contact_count = old.contact_count;
   pair.began = old.began;
@@ -100,6 +110,22 @@ Pair remake_pair(const WorldState& world, const Pair& old) {
   pair.was_touching = old.was_touching;
   pair.passage = pair.one_way ? old.passage : Passage::Apart;
   return pair;
+}
+
+}  // namespace
+
+Pair make_pair(const WorldState& world, std::uint64_t key) {
+  Pair pair = make_pair_unforced(world, key);
+  leave_out_what_is_forced_off(world.settings.forced, pair);
+  return pair;
+}
+
+Pair remake_pair(const WorldState& world, const Pair& old) {
+  return with_memory(make_pair(world, old.key), old);
+}
+
+Pair without_forcing(const WorldState& world, const Pair& pair) {
+  return with_memory(make_pair_unforced(world, pair.key), pair);
 }
 
 void count_collider(SceneCounts& counts, const Collider& collider, std::uint32_t change) {

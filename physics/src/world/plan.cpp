@@ -2,65 +2,15 @@
 // asks.
 #include "plumb/plan.h"
 
-#include <algorithm>
 #include <string>
 
 #include "effects/effect_world.h"
 #include "math/eigen_bridge.h"
-#include "motion/body_motion.h"
-#include "motion/rotation_flow.h"
-#include "solver/newton/choose.h"
-#include "world/world_state.h"
+#include "world/forced.h"
+#include "world/plan_losses.h"
+#include "world/plan_tally.h"
 
 namespace plumb::inline PLUMB_ABI {
-
-const char* name_of(PlanItem item) {
-  switch (item) {
-    case PlanItem::Gravity:
-      return "gravity";
-    case PlanItem::Forces:
-      return "forces";
-    case PlanItem::Damping:
-      return "damping";
-    case PlanItem::Gyroscopic:
-      return "gyroscopic";
-    case PlanItem::MotionLocks:
-      return "motion locks";
-    case PlanItem::Contacts:
-      return "contacts";
-    case PlanItem::Friction:
-      return "friction";
-    case PlanItem::Restitution:
-      return "restitution";
-    case PlanItem::Continuous:
-      return "look-ahead";
-    case PlanItem::Sensors:
-      return "sensors";
-    case PlanItem::Sleeping:
-      return "sleeping";
-    case PlanItem::DoublePositions:
-      return "double positions";
-    case PlanItem::Joints:
-      return "joints";
-    case PlanItem::RollingFriction:
-      return "rolling friction";
-    case PlanItem::SurfaceVelocity:
-      return "surface velocity";
-    case PlanItem::OneWay:
-      return "one-way colliders";
-    case PlanItem::AnisotropicFriction:
-      return "anisotropic friction";
-    case PlanItem::Adhesion:
-      return "adhesion";
-    case PlanItem::AccurateContacts:
-      return "accurate contacts";
-    default:
-      break;
-  }
-  const std::size_t effect =
-      static_cast<std::size_t>(item) - static_cast<std::size_t>(PlanItem::PointGravity);
-  return name_of_effect(effect);  // empty for what is none
-}
 
 const char* name_of(Stage stage) {
   switch (stage) {
@@ -98,7 +48,7 @@ void plan_step(WorldState& world, double dt) {
   world.dt = static_cast<Real>(dt);
   world.h = world.dt / static_cast<Real>(world.settings.substeps);
   world.flags.gravity = world.settings.gravity.squaredNorm() > 0;
-  world.flags.sleeping = world.settings.sleeping;
+  world.flags.sleeping = may_sleep(world.settings);
   world.flags.sensors = world.counts.sensors > 0;
 
   StepReport& report = world.report;
@@ -110,169 +60,139 @@ void plan_step(WorldState& world, double dt) {
 
 namespace {
 
-struct Tally {
-  std::uint32_t dynamic = 0, kinematic = 0, fixed = 0, awake = 0;
-  std::uint32_t forced = 0, damped = 0, isotropic = 0, symmetric = 0, asymmetric = 0,
-                unturnable = 0, steady = 0;
-  std::uint32_t locked = 0, frictional = 0, bouncing = 0, sensors = 0, weightless = 0;
-};
-
-// Below this |w x L| h / |L| [-] the gyroscopic term turns L in the body by less than rounding does
-// in single precision.
-constexpr Real kSteadyTurn = Real(1e-6);
-
-bool turns_steadily(const WorldState& world, std::uint32_t dense) {
-  const Vec L = world.bodies.momentum[dense].L, w = world.bodies.velocity[dense].w;
-  const Real h = world.h > Real(0) ? world.h : Real(1.0 / 240);
-  return length(cross(w, L)) * h <= kSteadyTurn * length(L);
-}
-
-Tally tally(const WorldState& world) {
-  Tally t;
-  const BodyStore& bodies = world.bodies;
-  for (std::uint32_t slot = 0; slot < bodies.info.size(); ++slot) {
-    const BodyInfo& info = bodies.info[slot];
-    if (!info.alive) continue;
-    if (info.type == MotionType::Static) ++t.fixed;
-    if (info.type == MotionType::Kinematic) ++t.kinematic;
-    if (bodies.is_awake(slot)) ++t.awake;
-    if (info.type != MotionType::Dynamic) continue;
-    ++t.dynamic;
-    const BodyMass& m = bodies.mass[info.dense];
-    const BodyForce& f = bodies.force[info.dense];
-    if (length_squared(f.force) > Real(0) || length_squared(f.torque) > Real(0)) ++t.forced;
-    if (f.linear_damping > Real(0) || f.angular_damping > Real(0)) ++t.damped;
-    if (m.gravity_scale == Real(0)) ++t.weightless;
-    const bool locked =
-        m.angular_locks != 0 || info.locks.linear_x || info.locks.linear_y || info.locks.linear_z;
-    if (locked) ++t.locked;
-    if (m.angular_locks != 0 || length_squared(m.moments) == Real(0)) {
-      ++t.unturnable;
-      continue;
-    }
-    if (classify_inertia(m.moments) != RotationKind::Isotropic && turns_steadily(world, info.dense))
-      ++t.steady;
-    switch (classify_inertia(m.moments)) {
-      case RotationKind::Isotropic:
-        ++t.isotropic;
-        break;
-      case RotationKind::Symmetric:
-        ++t.symmetric;
-        break;
-      case RotationKind::Asymmetric:
-        ++t.asymmetric;
-        break;
-    }
-  }
-  for (const ColliderInfo& collider : world.colliders.info) {
-    if (!collider.alive) continue;
-    if (collider.component.is_sensor) {
-      ++t.sensors;
-    } else {
-      if (collider.component.material.friction > Real(0)) ++t.frictional;
-      if (collider.component.material.restitution > Real(0)) ++t.bouncing;
-    }
-  }
-  return t;
-}
-
-struct AccurateChoice {
-  bool active = false;
-  std::string reason;
-};
-AccurateChoice accurate_choice(const WorldState& world) {
-  if (world.settings.contact_solver == ContactSolver::SoftStep)
-    return {false, "the settings ask for soft steps"};
-  if (world.settings.contact_solver == ContactSolver::Newton)
-    return {!world.contacts.empty() || !world.joints.empty(), "the settings ask for it"};
-  std::uint32_t staying = 0;
-  for (const BodyInfo& info : world.bodies.info)
-    if (info.alive && info.newton_steps > 0) ++staying;
-  const newton::Calls calls = newton::look_for_calls(world);
-  if (!calls.any() && staying == 0)
-    return {false, "no contact carries much more than the lighter body, or overlaps deeply"};
-  return {true, std::to_string(calls.mass) + " contacts have a heavy body on a light one, " +
-                    std::to_string(calls.load) + " press with many weights, " +
-                    std::to_string(calls.overlap) + " overlap under load; " +
-                    std::to_string(staying) + " bodies stay with it for a while"};
-}
-
 std::string of(std::uint32_t part, std::uint32_t whole, const char* what) {
   return std::to_string(part) + " of " + std::to_string(whole) + " " + what;
+}
+std::string pairs(std::uint32_t count, const char* what) {
+  return std::to_string(count) + " pairs that touch " + what;
+}
+
+std::string why_accurate(const WorldState& world, const PlanTally& t) {
+  if (world.settings.contact_solver == ContactSolver::SoftStep)
+    return "the settings ask for soft steps";
+  if (world.settings.contact_solver == ContactSolver::Newton) return "the settings ask for it";
+  if (world.settings.contact_solver == ContactSolver::WorstFirst)
+    return "the settings ask for the worst contact first";
+  const std::string beyond =
+      t.refused == 0
+          ? ""
+          : "; " + std::to_string(t.refused) +
+                " bodies go on in soft steps for a while: too many, too costly, or held by joints";
+  if (t.staying == 0)
+    return "no contact carries much more than the lighter body, or overlaps deeply, for long" +
+           beyond;
+  return std::to_string(t.calls.mass) + " contacts have a heavy body on a light one, " +
+         std::to_string(t.calls.load) + " press with many weights, " +
+         std::to_string(t.calls.overlap) + " overlap under load; " + std::to_string(t.staying) +
+         " bodies stay with it for a while" + beyond;
+}
+
+std::string why_sleeping(const WorldState& world, const PlanTally& t) {
+  if (!world.settings.sleeping) return "switched off in the settings";
+  return of(t.body.awake, t.body.dynamic + t.body.kinematic, "moving bodies are awake");
+}
+
+std::string why_effect(const PlanTally& t, PlanItem item) {
+  const std::size_t kind =
+      static_cast<std::size_t>(item) - static_cast<std::size_t>(PlanItem::PointGravity);
+  if (t.effects[kind] == 0) return "there is none";
+  return std::to_string(t.effects[kind]) + " in the world, within reach of " +
+         of(t.reached[kind], t.body.dynamic, "dynamic bodies");
+}
+
+// Who calls for an item, or why nothing does.
+std::string why(const WorldState& world, const PlanTally& t, PlanItem item) {
+  const BodyTally& body = t.body;
+  switch (item) {
+    case PlanItem::Gravity:
+      if (world.settings.gravity.squaredNorm() == 0) return "the gravity of the settings is zero";
+      return of(body.dynamic - body.weightless, body.dynamic, "dynamic bodies have weight");
+    case PlanItem::Forces:
+      return of(body.forced, body.dynamic, "dynamic bodies have a force or torque waiting");
+    case PlanItem::Damping:
+      return of(body.damped, body.dynamic, "dynamic bodies are damped");
+    case PlanItem::Gyroscopic:
+      return of(body.tumbling, body.dynamic, "dynamic bodies (") + std::to_string(body.isotropic) +
+             " isotropic, " + std::to_string(body.steady) + " with w x I w dt below 1e-6 I w, " +
+             std::to_string(body.unturnable) + " do not turn freely)";
+    case PlanItem::MotionLocks:
+      return of(body.locked, body.dynamic, "dynamic bodies have a locked axis");
+    case PlanItem::Contacts:
+      return std::to_string(t.pair.pairs) + " awake pairs have overlapping bounds, " +
+             std::to_string(world.query_list.size()) + " colliders seek new ones";
+    case PlanItem::Friction:
+      return pairs(t.pair.frictional, "have friction");
+    case PlanItem::Restitution:
+      return world.counts.restitution == 0 ? "no collider has restitution"
+                                           : pairs(t.pair.bouncing, "bounce");
+    case PlanItem::LookAhead:
+      return std::to_string(t.pair.swept) +
+             " pairs approach by more than a quarter of their thickness in a step";
+    case PlanItem::Continuous:
+      return of(body.far, body.awake,
+                "awake bodies move by more than a quarter of their thickness in a step");
+    case PlanItem::Sensors:
+      return std::to_string(world.counts.sensors) + " colliders are sensors";
+    case PlanItem::Sleeping:
+      return why_sleeping(world, t);
+    case PlanItem::DoublePositions:
+      return std::string("this build is ") + kPrecisionName;
+    case PlanItem::Joints:
+      return world.joints.empty()
+                 ? "there is no joint"
+                 : of(t.joint.joints, world.joints.alive_count, "joints hold a body that is awake");
+    case PlanItem::RollingFriction:
+      return pairs(t.pair.turning, "resist rolling or turning");
+    case PlanItem::SurfaceVelocity:
+      return pairs(t.pair.driven, "have a surface that runs");
+    case PlanItem::OneWay:
+      return std::to_string(world.counts.one_way) + " colliders are solid from one side only";
+    case PlanItem::AnisotropicFriction:
+      return pairs(t.pair.grained, "have a grain") +
+             (t.pair.grained > 0 ? "; they are left to soft steps" : "");
+    case PlanItem::Adhesion:
+      return pairs(t.pair.adhesive, "hold on to what they touch");
+    case PlanItem::AccurateContacts:
+      return why_accurate(world, t);
+    case PlanItem::FastTurns:
+      return std::to_string(body.fast) +
+             " bodies that touch something turn by more than 0.25 rad in a step";
+    case PlanItem::DeepOverlap:
+      return std::to_string(t.pair.deep) + " contact points are deeper than 2 % of a thickness";
+    case PlanItem::KeptManifolds:
+      return of(t.pair.touching, t.pair.pairs, "awake pairs touch; ") +
+             std::to_string(world.report.kept_pairs) + " were taken over in the last step";
+    case PlanItem::DirectJoints:
+      return of(t.joint.grouped, world.joints.alive_count, "joints share a body with another one");
+    case PlanItem::JointSubsteps:
+      return "groups of joints asked for " + std::to_string(t.joint.wanted) +
+             " substeps of their own in the last step, up to " + std::to_string(t.joint.most) +
+             " in one of the world's";
+    default:
+      return why_effect(t, item);
+  }
+}
+
+PlanDecision decide(const WorldState& world, const PlanTally& tally, PlanItem item, bool called) {
+  PlanDecision decision{item, called, why(world, tally, item)};
+  decision.choice = world.settings.forced.of(item);
+  if (decision.choice == Choice::Automatic) return decision;
+  decision.active = decision.choice == Choice::On;
+  decision.reason = (decision.active ? "forced on; " : "forced off; ") + decision.reason;
+  if (!decision.active) decision.loss = called ? loss_of(world, tally, item) : "nothing at present";
+  return decision;
 }
 
 }  // namespace
 }  // namespace detail
 
 StepPlan PhysicsWorld::plan() const {
-  const detail::WorldState& world = *state_;
-  const detail::Tally t = detail::tally(world);
+  const detail::PlanTally tally = detail::tally_plan(*state_);
+  const std::uint64_t called = detail::called_items(*state_, tally);
   StepPlan plan;
-  const auto decide = [&](PlanItem item, bool active, std::string reason) {
-    plan.decisions.push_back({item, active, std::move(reason)});
-  };
-  const bool gravity = world.settings.gravity.squaredNorm() > 0;
-  decide(PlanItem::Gravity, gravity && t.dynamic > t.weightless,
-         gravity ? detail::of(t.dynamic - t.weightless, t.dynamic, "dynamic bodies have weight")
-                 : "the gravity of the settings is zero");
-  decide(PlanItem::Forces, t.forced > 0,
-         detail::of(t.forced, t.dynamic, "dynamic bodies have a force or torque waiting"));
-  decide(PlanItem::Damping, t.damped > 0,
-         detail::of(t.damped, t.dynamic, "dynamic bodies are damped"));
-  const std::uint32_t tumbling = t.symmetric + t.asymmetric - t.steady;
-  decide(PlanItem::Gyroscopic, world.settings.rotation != RotationMethod::Book && tumbling > 0,
-         detail::of(tumbling, t.dynamic, "dynamic bodies (") + std::to_string(t.isotropic) +
-             " isotropic, " + std::to_string(t.steady) + " with w x I w h below 1e-6 I w, " +
-             std::to_string(t.unturnable) + " do not turn freely)");
-  decide(PlanItem::MotionLocks, t.locked > 0,
-         detail::of(t.locked, t.dynamic, "dynamic bodies have a locked axis"));
-  const std::uint32_t pairs = static_cast<std::uint32_t>(world.pairs.size());
-  decide(PlanItem::Contacts, pairs > 0 || !world.query_list.empty(),
-         std::to_string(pairs) + " awake pairs have overlapping bounds, " +
-             std::to_string(world.query_list.size()) + " colliders seek new ones");
-  decide(PlanItem::Friction, t.frictional > 0,
-         std::to_string(t.frictional) + " colliders have friction");
-  decide(PlanItem::Restitution, t.bouncing > 0,
-         t.bouncing > 0 ? std::to_string(t.bouncing) + " colliders bounce"
-                        : "no collider has restitution");
-  decide(PlanItem::Continuous, t.awake > 0,
-         "contacts look ahead of " + std::to_string(t.awake) +
-             " awake bodies; those that move far in a step are followed along their path");
-  decide(PlanItem::Sensors, t.sensors > 0, std::to_string(t.sensors) + " colliders are sensors");
-  decide(PlanItem::Sleeping, world.settings.sleeping,
-         world.settings.sleeping
-             ? detail::of(t.awake, t.dynamic + t.kinematic, "moving bodies are awake")
-             : "switched off in the settings");
-  constexpr bool kDouble = !std::is_same_v<PosReal, float>;
-  decide(PlanItem::DoublePositions, kDouble, std::string("this build is ") + kPrecisionName);
-  const std::uint32_t joints = world.joints.alive_count;
-  decide(
-      PlanItem::Joints, joints > 0,
-      joints > 0 ? std::to_string(joints) + " joints hold bodies together" : "there is no joint");
-  const detail::SceneCounts& counts = world.counts;
-  const bool by_table = world.contact_data.materials.resists_turning();
-  decide(PlanItem::RollingFriction, counts.turning > 0 || by_table,
-         std::to_string(counts.turning) + " colliders resist rolling or turning" +
-             (by_table ? ", and some pairs of materials do" : ""));
-  decide(PlanItem::SurfaceVelocity, counts.driven > 0,
-         std::to_string(counts.driven) + " colliders have a surface that runs");
-  decide(PlanItem::OneWay, counts.one_way > 0,
-         std::to_string(counts.one_way) + " colliders are solid from one side only");
-  decide(PlanItem::AnisotropicFriction, counts.grained > 0,
-         std::to_string(counts.grained) + " colliders have a grain" +
-             (counts.grained > 0 ? "; what touches them is left to soft steps" : ""));
-  decide(PlanItem::Adhesion, counts.adhesive > 0,
-         std::to_string(counts.adhesive) + " colliders hold on to what they touch");
-  const detail::AccurateChoice accurate = detail::accurate_choice(world);
-  decide(PlanItem::AccurateContacts, accurate.active, accurate.reason);
-  for (std::size_t kind = 0; kind < kEffectKindCount; ++kind) {
-    const std::uint32_t effects = detail::effects_of_kind(world, kind);
-    const std::uint32_t reached = effects > 0 ? detail::bodies_reached(world, kind) : 0;
-    decide(static_cast<PlanItem>(static_cast<std::size_t>(PlanItem::PointGravity) + kind),
-           reached > 0,
-           effects == 0 ? "there is none"
-                        : std::to_string(effects) + " in the world, within reach of " +
-                              detail::of(reached, t.dynamic, "dynamic bodies"));
+  for (std::size_t k = 0; k < kPlanItemCount; ++k) {
+    const PlanItem item = static_cast<PlanItem>(k);
+    plan.decisions.push_back(detail::decide(*state_, tally, item, (called & bit_of(item)) != 0));
   }
   return plan;
 }

@@ -9,7 +9,7 @@ namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
 const BodyPose& pose_of(const WorldState& world, std::uint32_t body) {
-  return world.bodies.pose[world.bodies.info[body].dense];
+  return world.bodies.pose[world.bodies.dense_of[body]];
 }
 
 // What a body has done since a moment: x - x0, and the rotation.
@@ -56,8 +56,8 @@ Real relative_path(const WorldState& world, const Pair& pair, const PairMotion& 
 // The normal goes with the body that does not yield, or half with either.
 Vec carried(const WorldState& world, const Pair& pair, const PairMotion& m, Vec normal) {
   const BodyStore& bodies = world.bodies;
-  const bool a_yields = bodies.mass[bodies.info[pair.body_a].dense].mass > Real(0);
-  const bool b_yields = bodies.mass[bodies.info[pair.body_b].dense].mass > Real(0);
+  const bool a_yields = bodies.mass[bodies.dense_of[pair.body_a]].mass > Real(0);
+  const bool b_yields = bodies.mass[bodies.dense_of[pair.body_b]].mass > Real(0);
   const Real by_a = !a_yields ? Real(1) : !b_yields ? Real(0) : Real(0.5);
   const Vec turned = by_a * m.a.of_direction(normal) + (Real(1) - by_a) * m.b.of_direction(normal);
   return length_squared(turned) > Real(0) ? normalized_or(normal + turned, normal) : normal;
@@ -99,6 +99,7 @@ void keep(const WorldState& world, const Pair& pair, Real margin, std::span<Cont
 
 bool recycle(WorldState& world, const Pair& pair, Real margin, Real reach) {
   if (pair.contact_count == 0 || pair.one_way) return false;
+  if (world.settings.forced.off(PlanItem::KeptManifolds)) return false;
   const std::span<Contact> contacts = contacts_of(pair, world.contacts);
   const KeptManifold& first = contacts.front().kept;
   const Real tolerance = tolerance::kRecycleSlops * pair.slop;

@@ -31,12 +31,18 @@ void visit_world(Table& t, WorldState& world) {
   t("contact_spring", s.contact_frequency, s.contact_damping_ratio);
   t("rotation", s.rotation);
   t("contact_solver", s.contact_solver);
+  t("velocity_iterations", s.velocity_iterations);
+  t("friction_cone", s.friction_cone);
   t("joint_order", s.joint_order);
+  std::uint64_t items_off = s.forced.items_off(), items_on = s.forced.items_on();
+  t("forced", items_off, items_on);
+  s.forced = PlanChoices(items_off, items_on);
   t("switches", s.warm_starting, s.sleeping, s.profiling);
   t("time_to_sleep", s.time_to_sleep);
   t("time", world.time);
   t("dt", world.dt, world.proxy_dt, world.last_h);
   t("steps", world.step_count);
+  t("newton_calls", world.newton_calls.mass, world.newton_calls.load, world.newton_calls.overlap);
 }
 
 template <class Table>
@@ -49,7 +55,9 @@ void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentu
     i.locks.angular_y, i.locks.angular_z);
   t("island", i.island);
   t("rest_time", i.rest_time);
+  t("newton_calls", i.newton_calls);
   t("newton_steps", i.newton_steps);
+  t("newton_pause", i.newton_pause);
   t("position", x.x.x, x.x.y, x.x.z);
   t("orientation", x.q.x, x.q.y, x.q.z, x.q.w);
   t("velocity", v.v.x, v.v.y, v.v.z);
@@ -374,8 +382,11 @@ void restore_lists(WorldState& world) {
     const ColliderInfo& collider = world.colliders.info[slot];
     if (!collider.alive) continue;
     update_reach(world, slot);
+    note_new_box(world, slot);
     if (collider.query_pairs) world.query_list.push_back(slot);
   }
+  for (const Pair& pair : world.pairs)
+    world.box_notes[pair.collider_a()].paired = world.box_notes[pair.collider_b()].paired = true;
   world.touched.assign(bodies.slot_of.begin() + bodies.awake_begin,
                        bodies.slot_of.begin() + bodies.awake_end);
 }

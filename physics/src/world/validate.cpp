@@ -120,6 +120,20 @@ Status check_added_mass(const Collider& collider) {
   return added.status.ok() ? check(added.properties) : added.status;
 }
 
+namespace {
+
+bool is_possible(const PlanChoices& forced) {
+  if ((forced.items_off() & forced.items_on()) != 0) return false;
+  std::uint64_t off = 0, on = 0;
+  for (std::size_t k = 0; k < kPlanItemCount; ++k) {
+    const PlanItem item = static_cast<PlanItem>(k);
+    if (may_force(item, Choice::Off)) off |= bit_of(item);
+    if (may_force(item, Choice::On)) on |= bit_of(item);
+  }
+  return (forced.items_off() & ~off) == 0 && (forced.items_on() & ~on) == 0;
+}
+
+}  // namespace
 }  // namespace detail
 
 Status check(const WorldSettings& s) {
@@ -134,11 +148,17 @@ Status check(const WorldSettings& s) {
     return {StatusCode::OutOfRange, "time to sleep must be finite and not negative [s]"};
   if (static_cast<int>(s.rotation) >= kRotationMethodCount)
     return {StatusCode::OutOfRange, "rotation method is none of the eight of RotationMethod"};
-  if (s.contact_solver != ContactSolver::SoftStep && s.contact_solver != ContactSolver::Newton &&
-      s.contact_solver != ContactSolver::Auto)
-    return {StatusCode::OutOfRange, "contact solver is none of SoftStep, Newton, Auto"};
+  if (static_cast<int>(s.contact_solver) >= kContactSolverCount)
+    return {StatusCode::OutOfRange, "contact solver is none of SoftStep, Newton, Auto, WorstFirst"};
+  if (s.velocity_iterations < 1 || s.velocity_iterations > 64)
+    return {StatusCode::OutOfRange, "velocity iterations must lie in 1..64"};
+  if (static_cast<int>(s.friction_cone) >= kFrictionConeCount)
+    return {StatusCode::OutOfRange, "friction cone is none of the three of FrictionCone"};
   if (s.joint_order != 2 && s.joint_order != 4)
     return {StatusCode::OutOfRange, "joint order must be 2 or 4"};
+  if (!detail::is_possible(s.forced))
+    return {StatusCode::OutOfRange,
+            "an item of the plan is forced on or off that may not be, or both (may_force tells)"};
   return {};
 }
 

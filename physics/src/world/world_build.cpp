@@ -4,8 +4,10 @@
 #include "effects/effect_world.h"
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
+#include "world/forced.h"
 #include "world/inputs.h"
 #include "world/joint_world.h"
+#include "world/pair_changes.h"
 #include "world/validate.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -166,13 +168,16 @@ Status PhysicsWorld::set_settings(const WorldSettings& settings) {
   if (const Status status = check(settings); !status) return status;
   detail::note_input(world, InputKind::SetSettings, 0,
                      [&](auto& out) { detail::append(out, settings); });
-  const bool wake_all = settings.gravity != world.settings.gravity || !settings.sleeping;
+  const bool forces = settings.forced != world.settings.forced;
+  const bool wake_all =
+      settings.gravity != world.settings.gravity || forces || !detail::may_sleep(settings);
   world.settings = settings;
   if (wake_all) {
     for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot)
       if (world.bodies.info[slot].alive && world.bodies.info[slot].island != detail::kNone)
         detail::wake_body(world, slot);
   }
+  if (forces) detail::remake_pairs(world, [](const detail::Pair&) { return true; });
   return {};
 }
 

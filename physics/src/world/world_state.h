@@ -12,6 +12,7 @@
 #include "solver/adhesion.h"
 #include "solver/contact_blocks.h"
 #include "solver/contact_row.h"
+#include "solver/newton/choose.h"
 #include "solver/surface_drive.h"
 #include "solver/turned_rows.h"
 #include "solver/turning_row.h"
@@ -92,6 +93,13 @@ struct PairFindings {
   SeparatingFace apart;
 };
 
+// What is known of a collider's box and reach, so that most of them need not be looked at.
+struct BoxNotes {
+  bool paired = false;     // in some awake pair: only then anything reads its reach
+  bool is_new = false;     // a new box since pairs were last asked whether they are gone
+  bool old_reach = false;  // the reach is an earlier step's
+};
+
 // One colour: rows among which no two share a dynamic body.
 struct ColorRange {
   std::uint32_t begin, end;
@@ -108,7 +116,9 @@ struct WorldState {
   BodyStore bodies;
   ColliderStore colliders;
   ColliderTrees trees;
-  std::vector<WorldAabb> reach;  // per collider slot: all its places in the next step
+  std::vector<WorldAabb> reach;          // per collider slot: all its places in the next step
+  std::vector<BoxNotes> box_notes;       // per collider slot
+  std::vector<std::uint32_t> new_boxes;  // collider slots whose boxes are noted as new
   PairStore pairs;
   std::vector<Contact> contacts;   // of the awake pairs, in their order
   std::uint64_t contacts_fit = 0;  // pairs.changes() for which Contact::seen_from holds
@@ -146,6 +156,7 @@ struct WorldState {
   std::vector<AdhesiveRow> adhesive_rows;
   std::vector<std::uint32_t> spun_rows;
   std::shared_ptr<newton::Solver> newton;      // null until a step calls for it
+  newton::Calls newton_calls;                  // of the last step
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
   std::vector<BodyDelta> delta;                // per dense index
   std::vector<SubstepBody> substep;            // per dense index
@@ -242,8 +253,15 @@ void update_proxy(WorldState& world, std::uint32_t collider, bool force);
 // Its two halves: whether the collider may leave its box in the next step, and a new box. Only the
 // first may run for several colliders at once.
 bool leaves_proxy(WorldState& world, std::uint32_t collider);
+// The same for one of an awake body that nothing but gravity acts on: does not look closely at what
+// is near nothing.
+bool may_leave_proxy(WorldState& world, std::uint32_t collider);
 void give_proxy(WorldState& world, std::uint32_t collider);
 // The box of all places that a collider may take in the next step; returns its body's path [m].
 PosVec update_reach(WorldState& world, std::uint32_t collider);
+// Its pairs shall be asked whether they are gone.
+void note_new_box(WorldState& world, std::uint32_t collider);
+// Which colliders are in pairs; all pairs have been asked.
+void note_paired(WorldState& world);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

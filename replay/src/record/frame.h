@@ -7,6 +7,7 @@
 #include "plumb/effects.h"
 #include "plumb/events.h"
 #include "plumb/inputs.h"
+#include "plumb/plan.h"
 #include "plumb/report.h"
 #include "plumb/rigid_body.h"
 #include "plumb/snapshot.h"
@@ -32,8 +33,10 @@ struct Frame {
   std::vector<JointBreakEvent> broken;   //
   std::vector<Effect> effects;           // that are drawn, if they changed
   bool effects_changed = false;          // else they are as they were
+  std::vector<PlanDecision> plan;        // what of the plan went on or off after the step
   StepReport report;
   bool profiled = false;      // the report has the stages' times
+  bool ledger = false;        // ... and says where energy and momentum went
   bool moved = false;         // false: the step was refused, or of no length
   bool has_snapshot = false;  // else what is in it is an older one
   Snapshot snapshot;          // after the step

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "record/placed_part.h"
+#include "record/series.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -12,28 +12,13 @@ namespace {
 
 constexpr double kMillisecondsPerSecond = 1e3, kMillimetersPerMeter = 1e3;
 
-void send_series(rrd::Writer& writer, const std::string& entity,
-                 const std::vector<std::string>& names) {
-  rrd::Table table(entity);
-  const std::size_t column = table.add_text_column("SeriesLines:names");
-  const std::size_t colors = table.add_column<std::uint32_t>("SeriesLines:colors");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    table.column(column).append_text(names[i]);
-    table.column(colors).append_one(kBodyColors[i % kBodyColors.size()]);
-  }
-  table.send_static(writer);
-}
-
 }  // namespace
 
 Plots::Plots()
-    : energy_("plots/energy"),
-      counts_("plots/counts"),
-      overlap_("plots/overlap"),
-      timing_("plots/timing") {
-  for (rrd::Table* table : {&energy_, &counts_, &overlap_, &timing_})
-    table->add_column<double>("Scalars:scalars");
-}
+    : energy_(series_table("plots/energy")),
+      counts_(series_table("plots/counts")),
+      overlap_(series_table("plots/overlap")),
+      timing_(series_table("plots/timing")) {}
 
 void Plots::send_names(rrd::Writer& writer) {
   send_series(writer, energy_.entity(),
@@ -45,11 +30,6 @@ void Plots::send_names(rrd::Writer& writer) {
   for (std::size_t i = 0; i < kStageCount; ++i)
     stages.push_back(name_of(static_cast<Stage>(i)) + std::string(" [ms]"));
   send_series(writer, timing_.entity(), stages);
-}
-
-void Plots::add_row(rrd::Table& table, const Frame& frame, std::span<const double> values) {
-  table.column(0).append(values);
-  table.end_row(frame.number, frame.time);
 }
 
 void Plots::add(const Frame& frame) {

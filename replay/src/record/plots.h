@@ -15,8 +15,6 @@ class Plots {
   void send(rrd::Writer& writer);
 
  private:
-  void add_row(rrd::Table& table, const Frame& frame, std::span<const double> values);
-
   rrd::Table energy_, counts_, overlap_, timing_;
 };
 

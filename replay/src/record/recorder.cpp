@@ -14,6 +14,7 @@
 #include "record/frame_queue.h"
 #include "record/joint_marks.h"
 #include "record/labels.h"
+#include "record/ledger_plots.h"
 #include "record/plots.h"
 #include "record/replay_tables.h"
 #include "record/spring_marks.h"
@@ -52,11 +53,13 @@ class Recorder::Run {
 
  private:
   void copy(const StepView& view, detail::Frame& frame);
+  void copy_plan_changes(const PhysicsWorld& world, detail::Frame& frame);
   // `world`: where it may be looked at; null on the encoding thread.
   void encode(detail::Frame& frame, const PhysicsWorld* world);
   void read_image(detail::Frame& frame) const;
   void encode_scene(const detail::Frame& frame, const PhysicsWorld* world);
   void give_effects(detail::Frame& frame);
+  void add_plots(const detail::Frame& frame);
   void show_all_places();
   void send();
   [[nodiscard]] bool scene_changed(const detail::Frame& frame, const PhysicsWorld& world) const;
@@ -70,11 +73,14 @@ class Recorder::Run {
   detail::Water water_;
   detail::Travel travel_;
   detail::Plots plots_;
+  detail::LedgerPlots ledger_plots_;
+  bool shows_ledger_ = false;  // the layout has tabs for them
   detail::TextLog text_log_;
   detail::SceneExtent extent_;
   int rows_ = 0;
 
   detail::EffectList effects_;    // of the stepping thread
+  std::uint64_t planned_ = 0;     // items of the plan as told last
   bool effects_changed_ = false;  // and no frame has told it yet
   bool attached_ = false;
   std::uint64_t last_step_ = 0;
@@ -152,14 +158,18 @@ void Recorder::Run::attach(const PhysicsWorld& world) {
   travel_.begin(extent_);
   if (options_.visuals) effects_.collect(world);
   if (!effects_.empty()) give_effects(frame);
-  detail::send_layout(writer_, extent_, options_);
+  shows_ledger_ = options_.plots && world.diagnostics().ledger;
+  detail::send_layout(writer_, extent_, options_, shows_ledger_);
   if (options_.contacts) contacts_.send_looks(writer_, world, frame, extent_);
   if (options_.plots) plots_.send_names(writer_);
   replay_.send_head(writer_, options_, world);
   replay_.send_snapshot(writer_, world.save(), frame.number, frame.time);
   if (options_.visuals) encode_scene(frame, &world);
   if (options_.body_states) bodies_.add(frame);
-  if (options_.text_log) text_log_.add_plan(world, frame);
+  if (options_.text_log) {
+    planned_ = world.planned_items();
+    text_log_.add_plan(world.plan(), frame);
+  }
   if (const Outcome sent = writer_.status(); !sent.ok()) fail(sent.error);
 }
 
@@ -212,12 +222,24 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   if (options_.visuals) effects_changed_ |= effects_.follow(frame.inputs, world);
   if (!frame.moved) return;
   if (effects_changed_) give_effects(frame);
+  if (options_.text_log) copy_plan_changes(world, frame);
   world.copy_image(frame.image);
   frame.profiled = world.settings().profiling;
+  frame.ledger = world.diagnostics().ledger;
   frame.has_snapshot = ++steps_since_snapshot_ >= options_.snapshot_every;
   if (!frame.has_snapshot) return;
   steps_since_snapshot_ = 0;
   world.save(frame.snapshot);
+}
+
+// Words are made only for what changed.
+void Recorder::Run::copy_plan_changes(const PhysicsWorld& world, detail::Frame& frame) {
+  const std::uint64_t planned = world.planned_items(), changed = planned ^ planned_;
+  planned_ = planned;
+  frame.plan.clear();
+  if (changed == 0) return;
+  for (PlanDecision& decision : world.plan().decisions)
+    if ((changed & bit_of(decision.item)) != 0) frame.plan.push_back(std::move(decision));
 }
 
 void Recorder::Run::step(const StepView& view) {
@@ -284,7 +306,7 @@ void Recorder::Run::show_all_places() {
     farther.followed = travel_.middle_entity();
     travel_.send_middle(writer_);
   }
-  detail::send_layout(writer_, travel_.seen(), options_, farther);
+  detail::send_layout(writer_, travel_.seen(), options_, shows_ledger_, farther);
 }
 
 void Recorder::Run::read_image(detail::Frame& frame) const {
@@ -292,6 +314,15 @@ void Recorder::Run::read_image(detail::Frame& frame) const {
   if (options_.contacts) frame.image.copy_contact_points(frame.contacts);
   if (options_.plots) frame.energy = frame.image.energy();
   frame.state_hash = frame.image.motion_hash();
+}
+
+void Recorder::Run::add_plots(const detail::Frame& frame) {
+  plots_.add(frame);
+  if (!frame.ledger) return;
+  ledger_plots_.add(frame);
+  if (shows_ledger_) return;
+  shows_ledger_ = true;
+  detail::send_layout(writer_, extent_, options_, shows_ledger_);
 }
 
 void Recorder::Run::encode(detail::Frame& frame, const PhysicsWorld* world) {
@@ -302,9 +333,9 @@ void Recorder::Run::encode(detail::Frame& frame, const PhysicsWorld* world) {
     if (!frame.moved) return;
     read_image(frame);
     if (options_.visuals) encode_scene(frame, world);
-    if (options_.text_log && world) text_log_.add_plan(*world, frame);
+    if (options_.text_log) text_log_.add_plan_changes(frame);
     if (options_.contacts) contacts_.add(frame);
-    if (options_.plots) plots_.add(frame);
+    if (options_.plots) add_plots(frame);
     if (options_.body_states) bodies_.add(frame);
     replay_.add_step(frame.report, frame.state_hash);
     if (++rows_ >= options_.rows_per_chunk) send();
@@ -329,6 +360,7 @@ void Recorder::Run::send() {
   labels_.send(writer_);
   contacts_.send(writer_);
   plots_.send(writer_);
+  ledger_plots_.send(writer_);
   text_log_.send(writer_);
 }
 

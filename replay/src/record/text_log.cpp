@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "plumb/world.h"
 #include "rrd/writer.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -36,18 +35,20 @@ void TextLog::add_line(const Frame& frame, const char* level, const std::string&
 // Counts an event, and says whether its line is still to be written: the others cost no text.
 bool TextLog::takes_line() { return ++lines_in_step_ <= lines_per_step_; }
 
-void TextLog::add_plan(const PhysicsWorld& world, const Frame& frame) {
-  std::string plan;
-  const StepPlan decided = world.plan();
-  for (const PlanDecision& decision : decided.decisions)
-    plan += std::string(name_of(decision.item)) + (decision.active ? ": on, " : ": off, ") +
-            decision.reason + "\n";
-  if (plan == last_plan_) return;
-  last_plan_ = plan;
-  for (const PlanDecision& decision : decided.decisions)
-    add_line(frame, decision.active ? "INFO" : "DEBUG",
-             std::string("plan: ") + name_of(decision.item) +
-                 (decision.active ? " on: " : " off: ") + decision.reason);
+void TextLog::add_decision(const PlanDecision& decision, const Frame& frame, const char* level) {
+  std::string text = std::string("plan: ") + name_of(decision.item) +
+                     (decision.active ? " on: " : " off: ") + decision.reason;
+  if (!decision.loss.empty()) text += "; lost: " + decision.loss;
+  add_line(frame, level, text);
+}
+
+void TextLog::add_plan(const StepPlan& plan, const Frame& frame) {
+  for (const PlanDecision& decision : plan.decisions)
+    add_decision(decision, frame, decision.active ? "INFO" : "DEBUG");
+}
+
+void TextLog::add_plan_changes(const Frame& frame) {
+  for (const PlanDecision& decision : frame.plan) add_decision(decision, frame, "INFO");
 }
 
 void TextLog::add_events(const Frame& frame) {

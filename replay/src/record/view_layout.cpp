@@ -38,7 +38,7 @@ void copy_to(const Eigen::Vector3d& v, float (&out)[3]) {
 }  // namespace
 
 void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options,
-                 const std::optional<FartherView>& farther) {
+                 bool ledger, const std::optional<FartherView>& farther) {
   rrd::Layout layout;
   layout.timeline = rrd::kFrameTimeline;
   layout.frames_per_second = static_cast<float>(options.frames_per_second);
@@ -50,6 +50,15 @@ void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderO
       {PLUMB_RR_VIEW_PLOT, "Overlap", "+ /plots/overlap", 3},
       {PLUMB_RR_VIEW_TEXT_LOG, "Plan and events", "+ /log", 4},
   };
+  if (ledger) {
+    const rrd::View tabs[] = {
+        {PLUMB_RR_VIEW_PLOT, "Energy ledger", "+ /plots/ledger/energy", 1},
+        {PLUMB_RR_VIEW_PLOT, "Momentum x", "+ /plots/ledger/momentum_x", 1},
+        {PLUMB_RR_VIEW_PLOT, "Momentum y", "+ /plots/ledger/momentum_y", 1},
+        {PLUMB_RR_VIEW_PLOT, "Momentum z", "+ /plots/ledger/momentum_z", 1},
+    };
+    layout.views.insert(layout.views.begin() + 1, std::begin(tabs), std::end(tabs));
+  }
   const Eigen::Vector3d& up = extent.up;
   const Eigen::Vector3d aside =
       std::abs(up.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();

@@ -16,9 +16,9 @@ struct FartherView {
   double grid_height = 0;  // [m] along up, of a grid of lines that shows how far things go
 };
 
-// The later layout of a recording is the one that is shown.
+// The later layout of a recording is the one that is shown. ledger: with tabs for LedgerPlots.
 void send_layout(rrd::Writer& writer, const SceneExtent& extent, const RecorderOptions& options,
-                 const std::optional<FartherView>& farther = {});
+                 bool ledger, const std::optional<FartherView>& farther = {});
 
 }  // namespace replay::detail
 }  // namespace plumb::inline PLUMB_ABI

@@ -14,6 +14,8 @@ WorldSettings Making::settings() const {
   s.substeps = knobs.substeps;
   s.rotation = static_cast<RotationMethod>(knobs.rotation);
   s.contact_solver = static_cast<ContactSolver>(knobs.solver);
+  s.velocity_iterations = knobs.iterations;
+  s.friction_cone = static_cast<FrictionCone>(knobs.friction);
   s.joint_order = knobs.joint_order;
   s.warm_starting = knobs.warm_start;
   s.sleeping = false;

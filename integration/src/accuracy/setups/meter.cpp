@@ -51,6 +51,23 @@ class Path : public Meter {
   Vector3d along_, start_ = Vector3d::Zero();
 };
 
+class Slides : public Meter {
+ public:
+  void begin(const BodyReadings& bodies) override { start_ = bodies; }
+  [[nodiscard]] std::vector<double> readings(const BodyReadings& end) const override {
+    std::vector<double> out;
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      const Vector3d way =
+          (end[i].position - start_[i].position) / std::sqrt(static_cast<double>(end.size()));
+      out.insert(out.end(), {way.x(), way.z()});
+    }
+    return out;
+  }
+
+ private:
+  BodyReadings start_;
+};
+
 class Precession : public Meter {
  public:
   [[nodiscard]] std::vector<double> readings(const BodyReadings& end) const override {
@@ -216,6 +233,7 @@ MeterPtr worst_energy_meter(double gravity, double floor) {
   return std::make_unique<WorstEnergy>(gravity, floor);
 }
 MeterPtr places_meter() { return std::make_unique<Places>(); }
+MeterPtr slides_meter() { return std::make_unique<Slides>(); }
 MeterPtr energy_meter(double gravity, double mass, double moment) {
   return std::make_unique<Energy>(gravity, mass, moment);
 }

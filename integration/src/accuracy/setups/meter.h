@@ -39,7 +39,8 @@ MeterPtr precession_meter();                        // [rad] about y, from +x to
 MeterPtr period_meter();                            // [s] of a swing about z through the origin
 MeterPtr worst_energy_meter(double gravity, double floor);  // [-] relative; floor: [m] lowest place
 // Of all:
-MeterPtr places_meter();                                            // [m] three numbers a body
+MeterPtr places_meter();  // [m] three numbers a body
+MeterPtr slides_meter();  // [m] rms over the bodies of their ways in x, z
 MeterPtr energy_meter(double gravity, double mass, double moment);  // [-] rms, relative
 MeterPtr overlap_meter(double radius);  // [m] rms of balls' overlaps with each other and the floor
 MeterPtr displacement_meter();          // [m] rms over the bodies, end against start

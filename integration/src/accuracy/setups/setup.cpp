@@ -88,6 +88,22 @@ Setup plate_on_floor(const char* name, double seconds, double slope, double fric
   const SetupBody plate = box(1000 * 0.1, {0.5, 0.05, 0.5}, Vector3d::Zero());
   return on_floor(name, seconds, slope, friction, speed, plate, plate.half.y());
 }
+// C2: plates that all leave one place at 25 m/s, each with a heading of its own.
+Setup plates_in_all_directions() {
+  Setup s = plate_on_floor("C2", 5, 0, 0.6, 25);
+  const SetupBody plate = s.bodies[0];
+  s.copies = 1;
+  s.bodies.clear();
+  for (int i = 0; i < kHeadings; ++i) {
+    const double heading = 2 * kPi * i / kHeadings;
+    const Vector3d along(std::cos(heading), 0, std::sin(heading));
+    s.bodies.push_back(plate);
+    s.bodies.back().position += 20 * along;  // [m] clear of each other
+    s.bodies.back().velocity = plate.velocity.norm() * along;
+  }
+  s.meter = slides_meter;
+  return s;
+}
 Setup ball_on_floor(const char* name, double slope, double friction, double speed) {
   return on_floor(name, 2, slope, friction, speed, ball(1, kBall, Vector3d::Zero()), kBall);
 }
@@ -146,6 +162,7 @@ std::vector<Setup> own_setups() {
       elastic(),
       rough(),
       plate_on_floor("C1", 3, 0, 0.5, 10),
+      plates_in_all_directions(),
       plate_on_floor("C3", 2, kPi / 6, 0.3, 0),
       ball_on_floor("C5", 0, 0.3, 7),
       ball_on_floor("C6", kPi / 6, 0.8, 0),

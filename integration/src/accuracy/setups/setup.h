@@ -53,6 +53,7 @@ struct Setup {
   std::function<MeterPtr()> meter{};
 };
 
+inline constexpr int kHeadings = 48;  // of C2, 7.5 degrees apart
 const std::vector<Setup>& setups();
 const Setup* find_setup(std::string_view name);  // null: the case is none of these
 

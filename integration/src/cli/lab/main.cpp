@@ -24,8 +24,8 @@ using namespace accuracy;
 
 struct AccuracyOptions {
   std::vector<std::string> cases;
-  std::vector<std::string> dt, substeps, rotation, solver, joint_order, precision, warm_start,
-      continuous;
+  std::vector<std::string> dt, substeps, iterations, rotation, solver, friction, joint_order,
+      precision, warm_start, continuous;
   std::string output, error, budget, table;
   bool list = false, quick = false, no_charts = false, quiet = false, peers = false;
 };
@@ -95,13 +95,23 @@ std::string read_knobs(const AccuracyOptions& options, KnobChoice& knobs) {
   }
   std::vector<std::string> counts;
   for (int i = 1; i <= 64; ++i) counts.push_back(std::to_string(i));
-  for (const std::string& word : options.substeps) {
-    const auto found = std::find(counts.begin(), counts.end(), word);
-    if (found == counts.end()) return "--substeps: '" + word + "' is no number from 1 to 64";
-    knobs.substeps.push_back(static_cast<int>(found - counts.begin()) + 1);
-  }
-  std::string wrong = choose("--rotation", options.rotation, rotation_names(), knobs.rotation);
+  std::string wrong;
+  const auto count = [&](const std::string& option, const std::vector<std::string>& words,
+                         std::vector<int>& out) {
+    for (const std::string& word : words) {
+      const auto found = std::find(counts.begin(), counts.end(), word);
+      if (found == counts.end() && wrong.empty())
+        wrong = option + ": '" + word + "' is no number from 1 to 64";
+      out.push_back(static_cast<int>(found - counts.begin()) + 1);
+    }
+  };
+  count("--substeps", options.substeps, knobs.substeps);
+  count("--iterations", options.iterations, knobs.iterations);
+  if (wrong.empty())
+    wrong = choose("--rotation", options.rotation, rotation_names(), knobs.rotation);
   if (wrong.empty()) wrong = choose("--solver", options.solver, solver_names(), knobs.solver);
+  if (wrong.empty())
+    wrong = choose("--friction", options.friction, friction_names(), knobs.friction);
   std::vector<int> chosen;
   if (wrong.empty()) wrong = choose("--joint-order", options.joint_order, {"2", "4"}, chosen);
   for (const int place : chosen) knobs.joint_order.push_back(place == 0 ? 2 : 4);
@@ -323,7 +333,9 @@ void add_options(CLI::App& app, AccuracyOptions& options) {
   list("--dt", options.dt, "Steps to run instead of the lab's own, such as 1/60,1/120");
   list("--substeps", options.substeps, "Likewise, 1 to 64");
   list("--rotation", options.rotation, "Likewise, rotation methods, such as Exact,RK4");
-  list("--solver", options.solver, "Likewise, contact solvers: SoftStep, Newton, Auto");
+  list("--solver", options.solver, "Likewise, contact solvers: SoftStep, Newton, Auto, WorstFirst");
+  list("--iterations", options.iterations, "Likewise, passes over the contacts, 1 to 64");
+  list("--friction", options.friction, "Likewise, cones: Exact, 4-facets, 8-facets");
   list("--joint-order", options.joint_order, "Likewise, of jointed bodies in flight: 2, 4");
   list("--precision", options.precision, "Likewise: f32, f32d, f64");
   list("--warm-start", options.warm_start, "Likewise: on, off");

@@ -24,8 +24,9 @@ NumVec MeshSurface::normal_of(std::uint32_t t) const {
     if (squared > side) side = squared, longest = k;
   }
   const Num low = kSliverUlps * rounding_;
-  const Num area_squared = length_squared(doubled_area(p[0], p[1], p[2]));
-  NumVec n = own(t);
+  const NumVec unscaled_area = doubled_area(p[0], p[1], p[2]);
+  const Num area_squared = length_squared(unscaled_area);
+  NumVec n = is_scaled_ ? own(t) : unscaled_area;
   const std::uint32_t other =
       mesh_.edges.empty() ? EdgeLink::kNobody : mesh_.edges[t][longest].triangle();
   if (area_squared < low * low * side && other != EdgeLink::kNobody) {
@@ -46,13 +47,8 @@ std::uint32_t MeshSurface::edge_id(std::uint32_t t, std::uint32_t k) const {
 }
 
 void MeshSurface::triangle(std::uint32_t t, SurfaceTriangle& out) const {
-  out.id = t;
-  out.normal = normal_of(t);
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    out.corner_id[k] = mesh_.corners[t][k];
-    out.corner[k] = vertex(out.corner_id[k]);
-  }
-  out.offset = dot(out.normal, out.corner[0]);
+  place_corners(t, out);
+  place_plane(out);
 }
 
 void MeshSurface::complete(SurfaceTriangle& t) const {

@@ -13,6 +13,7 @@ class MeshSurface final : public SurfaceSource {
     const NumVec far = max_each(absolute(box.lower), absolute(box.upper));
     constexpr Num kUlp = std::numeric_limits<Real>::epsilon();
     rounding_ = kUlp * std::max({far.x, far.y, far.z});
+    is_scaled_ = scale.x != Num(1) || scale.y != Num(1) || scale.z != Num(1);
   }
 
   [[nodiscard]] NumBox bounds() const { return scaled(mesh_.tree.bounds()); }
@@ -27,12 +28,14 @@ class MeshSurface final : public SurfaceSource {
   void complete(SurfaceTriangle& t) const override;
   [[nodiscard]] bool corner_allows(const SurfaceTriangle& t, int corner, NumVec n) const override;
 
-  // visit(const SurfaceTriangle&) for those whose tree leaves overlap the box.
+  // visit(const SurfaceTriangle&) for those whose own boxes overlap the box.
   template <class Visit>
   void query(const NumBox& box, Visit&& visit) const {
     SurfaceTriangle t;
     mesh_.tree.query(unscaled(box), [&](std::uint32_t place) {
-      triangle(place, t);
+      place_corners(place, t);
+      if (!overlaps(box_of(t), box)) return;
+      place_plane(t);
       visit(t);
     });
   }
@@ -66,11 +69,28 @@ class MeshSurface final : public SurfaceSource {
   [[nodiscard]] NumBox unscaled(const NumBox& b) const {
     return {divide(b.lower), divide(b.upper)};
   }
+  // The two halves of triangle().
+  void place_corners(std::uint32_t t, SurfaceTriangle& out) const {
+    out.id = t;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      out.corner_id[k] = mesh_.corners[t][k];
+      out.corner[k] = vertex(out.corner_id[k]);
+    }
+  }
+  void place_plane(SurfaceTriangle& out) const {
+    out.normal = normal_of(out.id);
+    out.offset = dot(out.normal, out.corner[0]);
+  }
+  [[nodiscard]] static NumBox box_of(const SurfaceTriangle& t) {
+    return {min_each(t.corner[0], min_each(t.corner[1], t.corner[2])),
+            max_each(t.corner[0], max_each(t.corner[1], t.corner[2]))};
+  }
   [[nodiscard]] std::uint32_t edge_id(std::uint32_t t, std::uint32_t k) const;
 
   const MeshData& mesh_;
   NumVec scale_;
   Num rounding_;
+  bool is_scaled_;
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

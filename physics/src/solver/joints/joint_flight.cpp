@@ -25,7 +25,7 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// The group's own substeps within one of the world's.
+// The group's own substeps within one of the world's: how many it calls for.
 int cycles_of(WorldState& world, const JointPiece& piece) {
   const JointScratch& scratch = *world.joints.scratch;
   for_bodies(scratch, piece, [&](std::uint32_t i) { world.substep[i].stiffness = Real(0); });
@@ -58,6 +58,19 @@ int cycles_of(WorldState& world, const JointPiece& piece) {
                                                      : joint_tolerance::kMostCycles;
 }
 
+// ... as many as it takes, and notes them.
+int cycles_taken(WorldState& world, JointPiece& piece) {
+  const int wanted = cycles_of(world, piece);
+  const Choice choice = world.settings.forced.of(PlanItem::JointSubsteps);
+  const int taken = choice == Choice::Automatic ? wanted
+                    : choice == Choice::On      ? joint_tolerance::kMostCycles
+                                                : 1;
+  piece.wanted_substeps += static_cast<std::uint32_t>(wanted - 1);
+  piece.most_wanted = std::max(piece.most_wanted, static_cast<std::uint32_t>(wanted));
+  piece.own_substeps += static_cast<std::uint32_t>(taken - 1);
+  return taken;
+}
+
 // a = 1/(4 - 4^(1/3)) and b = 1 - 4a: parts of a substep.
 constexpr Real kThere = Real(0.41449077179437574), kBack = Real(-0.65796308717750294);
 constexpr Real kParts[] = {kThere, kThere, kBack, kThere, kThere};
@@ -74,11 +87,11 @@ bool stays_off_limits(const JointRow& row, const FreeRow& free, Real h) {
 // Whether the motion of a group can be undone: nothing damps, rubs, drives or hits.
 bool is_reversible(const WorldState& world, const JointPiece& piece, Real h) {
   const JointScratch& scratch = *world.joints.scratch;
-  if (!keeps_momentum(world.settings.rotation)) return false;
   bool reversible = true;
   for_bodies(scratch, piece, [&](std::uint32_t i) {
     const BodyForce& force = world.bodies.force[i];
-    reversible = reversible && force.linear_damping == Real(0) && force.angular_damping == Real(0);
+    reversible = reversible && turning_keeps_momentum(world.settings, world.bodies.mass[i]) &&
+                 force.linear_damping == Real(0) && force.angular_damping == Real(0);
   });
   for (std::uint32_t i = piece.begin; i < piece.end && reversible; ++i) {
     const JointBlock& block = scratch.blocks[i];
@@ -171,7 +184,7 @@ void fly(WorldState& world, JointPiece& piece, Real h, Real end) {
 
 void fly_joint_group(WorldState& world, JointPiece& piece) {
   JointScratch& scratch = *world.joints.scratch;
-  const int cycles = cycles_of(world, piece);
+  const int cycles = cycles_taken(world, piece);
   const Real h = world.h / static_cast<Real>(cycles);
   for (int cycle = 0; cycle < cycles; ++cycle) {
     const Real begin = static_cast<Real>(cycle) * h, end = static_cast<Real>(cycle + 1) * h;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 
 #include "solver/joints/joint_kinds.h"
@@ -118,6 +119,7 @@ class Order {
  public:
   explicit Order(WorldState& world)
       : scratch_(*world.joints.scratch),
+        choice_(world.settings.forced.of(PlanItem::DirectJoints)),
         h_(world.h),
         begin_(&world.memory),
         joints_(&world.memory),
@@ -198,7 +200,9 @@ class Order {
   bool find_pattern(std::uint32_t begin, std::uint32_t end) {
     columns_.resize(end);
     std::uint64_t work = 0;
-    const std::uint64_t most = joint_tolerance::kMostWork * (end - begin);
+    if (choice_ == Choice::Off && end - begin > 1) return false;
+    const std::uint64_t most = choice_ == Choice::On ? std::numeric_limits<std::uint64_t>::max()
+                                                     : joint_tolerance::kMostWork * (end - begin);
     for (std::uint32_t p = begin; p < end; ++p) {
       StepList<std::uint32_t>& column = columns_[p];
       for_neighbours(scratch_.order[p], [&](std::uint32_t j) {
@@ -216,6 +220,7 @@ class Order {
   }
 
   JointScratch& scratch_;
+  Choice choice_;  // of solving a group at once
   Real h_;
   StepList<std::uint32_t> begin_, joints_;  // joints at each body
   StepList<std::uint8_t> found_;

@@ -30,6 +30,8 @@ struct JointScratch {
   std::vector<std::uint32_t> group;          // per dense index: smallest one connected over joints
   std::vector<std::uint8_t> group_touches;   // per group: some body of it touches something
   std::vector<std::uint8_t> group_loops;     // per group: joints may hold what others hold already
+  // Substeps of their own that groups asked for in the last step, and the most at once.
+  std::uint32_t own_substeps_wanted = 0, most_cycles_wanted = 1;
 };
 
 // Calls task(dense index) for every dynamic body of a piece, once.

@@ -1,6 +1,8 @@
 // The joints' part in the substeps, and what is read out of it.
 #include "solver/joints/joint_stages.h"
 
+#include <algorithm>
+
 #include "math/eigen_bridge.h"
 #include "solver/joints/joint_flight.h"
 #include "solver/joints/joint_scratch.h"
@@ -100,10 +102,18 @@ void store_joint(WorldState& world, const JointBlock& block, Real per_substep) {
 }  // namespace
 
 void store_joints(WorldState& world) {
-  const JointScratch& scratch = *world.joints.scratch;
-  for (const JointPiece& piece : scratch.system.pieces)
+  JointScratch& scratch = *world.joints.scratch;
+  scratch.own_substeps_wanted = 0;
+  scratch.most_cycles_wanted = 1;
+  for (const JointPiece& piece : scratch.system.pieces) {
     for (std::uint32_t i = piece.begin; i < piece.end; ++i)
       store_joint(world, scratch.blocks[i], world.h / piece.h);
+    scratch.own_substeps_wanted += piece.wanted_substeps;
+    scratch.most_cycles_wanted = std::max(scratch.most_cycles_wanted, piece.most_wanted);
+    world.report.joint_substeps += piece.own_substeps;
+    if (piece.whole && piece.end - piece.begin > 1)
+      world.report.direct_joints += piece.end - piece.begin;
+  }
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

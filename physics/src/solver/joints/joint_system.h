@@ -42,6 +42,9 @@ struct JointPiece {
   bool split = false;
   Real h = 0;           // [s] its substep
   bool newton = false;  // solved with the contacts of its island (solver/newton)
+  // Substeps of its own within this step, beyond the world's: taken, asked for, and the most of
+  // them that it asked for at once.
+  std::uint32_t own_substeps = 0, wanted_substeps = 0, most_wanted = 1;
 };
 
 struct JointSystem {

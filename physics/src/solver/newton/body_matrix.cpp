@@ -114,11 +114,13 @@ bool BodyMatrix::find_pattern(std::span<const Edge> edges, std::size_t most_bloc
   }
   column_.assign(1, 0);
   row_.clear();
+  products_ = 0;
   for (std::vector<std::uint32_t>& list : columns) {
     for (std::uint32_t& body : list) body = place_[body];
     std::sort(list.begin(), list.end());
     row_.insert(row_.end(), list.begin(), list.end());
     column_.push_back(row_.size());
+    products_ += 1 + list.size() + list.size() * (list.size() + 1) / 2;
   }
   diagonal_.resize(count_);
   below_.resize(row_.size());

@@ -27,6 +27,9 @@ class BodyMatrix {
   // The same edges as last time cost a comparison.
   bool analyse(std::uint32_t count, std::span<const Edge> edges, std::size_t most_blocks);
 
+  // Of 6x6 blocks, by which factor() grows [-]; 3 a body in a column.
+  [[nodiscard]] std::size_t products() const { return products_; }
+
   void clear();  // all zero
   [[nodiscard]] Block6& diagonal(std::uint32_t body) { return diagonal_[place_[body]]; }
   // Adds m, of which rows belong to body i and columns to body j.
@@ -42,6 +45,7 @@ class BodyMatrix {
 
   std::uint32_t count_ = 0;
   bool fits_ = false;
+  std::size_t products_ = 0;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> order_, place_;  // place -> body, body -> place
   std::vector<std::size_t> column_;           // blocks of column k: [column_[k], column_[k + 1])

@@ -3,75 +3,88 @@
 #include <algorithm>
 
 #include "math/eigen_bridge.h"
+#include "solver/newton/island.h"
 #include "solver/newton/tolerances.h"
+#include "world/forced.h"
+#include "world/tolerances.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail::newton {
-namespace {
 
-// Of one contact.
-Call call_of(const WorldState& world, const Contact& contact, Vec down, Real g) {
-  const Pair& pair = world.pairs[contact.pair];
-  const std::uint32_t a = world.bodies.info[pair.body_a].dense;
-  const std::uint32_t b = world.bodies.info[pair.body_b].dense;
-  const Real m_a = world.bodies.mass[a].mass, m_b = world.bodies.mass[b].mass;
+CallsOfRows::CallsOfRows(const WorldState& world)
+    : world_(world),
+      gravity_(to_inner(world.settings.gravity)),
+      g_(solver_of(world.settings) == ContactSolver::Auto ? length(gravity_) : Real(0)) {}
+
+Call CallsOfRows::of(const ContactRow<Real>& row) const {
+  // A body alone with what does not move presses as it strikes; what lies on others weighs on them.
+  if (!row.both_dynamic) return Call::None;
   Real pressed = 0, gap = 0;
-  for (int i = 0; i < contact.manifold.count; ++i) {
-    pressed += contact.normal_impulse[i];
-    gap = std::min(gap, contact.manifold.points[i].separation);
+  for (int i = 0; i < row.count; ++i) {
+    pressed += row.points[i].impulse;
+    gap = std::min(gap, row.points[i].separation);
   }
-  const bool loaded = pressed > Real(0);
-  if (m_a > Real(0) && m_b > Real(0)) {
-    const bool b_above = dot(contact.manifold.normal, down) < Real(0);
-    const Real above = b_above ? m_b : m_a, below = b_above ? m_a : m_b;
-    if (above > tolerance::kLightest * below && (loaded || world.last_h == Real(0)))
-      return Call::Mass;
-  }
-  // What has only just met strikes; whether it carries will be seen.
-  const auto touching = static_cast<std::uint32_t>(world.step_count) - pair.began;
-  if (touching < tolerance::kStepsToBeLoad) return Call::None;
-  const Real lightest = m_a > Real(0) && m_b > Real(0) ? std::min(m_a, m_b) : std::max(m_a, m_b);
-  if (pressed > tolerance::kMostLoad * lightest * g * world.last_h) return Call::Load;
-  if (loaded && gap < -tolerance::kMostOverlap * pair.slop) return Call::Overlap;
-  return Call::None;
+  if (!(pressed > Real(0))) return Call::None;
+  const Real m_a = world_.bodies.mass[row.body_a].mass, m_b = world_.bodies.mass[row.body_b].mass;
+  const Real up = -dot(row.n, gravity_);
+  const Real above = up > Real(0) ? m_b : m_a, below = up > Real(0) ? m_a : m_b;
+  const bool lies = std::abs(up) > tolerance::kLies * g_;
+  if (lies && above > tolerance::kLightest * below) return Call::Mass;
+  if (pressed > tolerance::kMostLoad * std::min(m_a, m_b) * g_ * world_.h) return Call::Load;
+  const Real slop =
+      row.push_speed * (detail::tolerance::kSlopFraction / detail::tolerance::kPushRate);
+  return gap < -tolerance::kMostOverlap * slop ? Call::Overlap : Call::None;
 }
 
-// Looks at every contact; on_call(slot) is told the bodies concerned.
-template <class OnCall>
-Calls look_for_calls(const WorldState& world, OnCall&& on_call) {
-  Calls calls;
-  const Vec gravity = to_inner(world.settings.gravity);
-  const Real g = length(gravity);
-  if (!(g > Real(0))) return calls;  // what is thrown has no weight to be carried
-  for (const Contact& contact : world.contacts) {
-    const Call call = call_of(world, contact, gravity, g);
+void hear_calls(WorldState& world, const Call* of_row) {
+  BodyStore& bodies = world.bodies;
+  Calls& calls = world.newton_calls;
+  calls = {};
+  const auto rows = static_cast<std::uint32_t>(world.rows.size());
+  StepList<Call> loudest(&world.memory);  // per dense body
+  for (std::uint32_t k = 0; k < rows; ++k) {
+    const Call call = of_row[k];
     if (call == Call::None) continue;
     ++(call == Call::Mass ? calls.mass : call == Call::Load ? calls.load : calls.overlap);
-    const Pair& pair = world.pairs[contact.pair];
-    on_call(pair.body_a);
-    on_call(pair.body_b);
+    if (loudest.empty()) loudest.assign(bodies.awake_end, Call::None);
+    for (const std::uint32_t body : {world.rows[k].body_a, world.rows[k].body_b})
+      if (loudest[body] != Call::Mass) loudest[body] = call;
   }
-  return calls;
-}
-
-}  // namespace
-
-Calls look_for_calls(const WorldState& world) {
-  return look_for_calls(world, [](std::uint32_t) {});
-}
-
-bool choose_bodies(WorldState& world) {
-  BodyStore& bodies = world.bodies;
-  bool any = false;
+  if (loudest.empty() && !bodies.some_called) return;
+  bodies.some_called = false;
   for (std::uint32_t i = bodies.awake_begin; i < bodies.awake_end; ++i) {
-    std::uint8_t& left = bodies.info[bodies.slot_of[i]].newton_steps;
-    if (left == 0) continue;
-    --left;
-    any = any || left > 0;
+    BodyInfo& info = bodies.info[bodies.slot_of[i]];
+    const Call call = loudest.empty() ? Call::None : loudest[i];
+    const std::uint8_t before = info.newton_calls;
+    if (info.newton_steps > 0) --info.newton_steps;
+    if (info.newton_pause > 0) {
+      --info.newton_pause;
+    } else if (call == Call::None) {
+      info.newton_calls = before > 0 ? static_cast<std::uint8_t>(before - 1) : before;
+    } else {
+      if (before < tolerance::kStepsToBeLoad) ++info.newton_calls;
+      if (call == Call::Mass || info.newton_calls == tolerance::kStepsToBeLoad)
+        info.newton_steps = tolerance::kStepsToStay;
+    }
+    if (info.newton_calls > 0 || info.newton_steps > 0 || info.newton_pause > 0)
+      bodies.some_called = true;
   }
-  const Calls calls = look_for_calls(
-      world, [&](std::uint32_t slot) { bodies.info[slot].newton_steps = tolerance::kStepsToStay; });
-  return any || calls.any();
+}
+
+void hear_no_more(WorldState& world, const Island& island) {
+  for (const IslandBody& body : island.bodies) {
+    BodyInfo& info = world.bodies.info[world.bodies.slot_of[body.dense]];
+    info.newton_calls = info.newton_steps = 0;
+    info.newton_pause = tolerance::kStepsOfPause;
+  }
+}
+
+bool is_called(WorldState& world) {
+  const BodyStore& bodies = world.bodies;
+  if (!bodies.some_called) return false;
+  for (std::uint32_t i = bodies.awake_begin; i < bodies.awake_end; ++i)
+    if (bodies.info[bodies.slot_of[i]].newton_steps > 0) return true;
+  return false;
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail::newton

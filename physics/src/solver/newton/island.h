@@ -121,6 +121,9 @@ struct Island {
   double lack = 0;  // [m/s] by which the laws are missed
   int factorizations = 0;
   bool fell_back = false;
+  // Of factorizations in this step; beyond it a solve has one interior point, and what overlaps
+  // stays so.
+  std::uint32_t budget = 0;
   // Over the step: sums, and the largest lack.
   std::uint32_t total_factorizations = 0, fallbacks = 0;
   double worst_lack = 0;

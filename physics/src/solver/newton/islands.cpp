@@ -1,11 +1,13 @@
 // Which bodies are solved together, and what of the world belongs to them.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "solver/joints/joint_groups.h"
 #include "solver/newton/choose.h"
 #include "solver/newton/newton_solver.h"
 #include "solver/newton/tolerances.h"
+#include "world/forced.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -35,8 +37,8 @@ template <class Task>
 void for_links(const WorldState& world, Task&& task) {
   for (const Contact& contact : world.contacts) {
     const Pair& pair = world.pairs[contact.pair];
-    std::uint32_t a = world.bodies.info[pair.body_a].dense;
-    std::uint32_t b = world.bodies.info[pair.body_b].dense;
+    std::uint32_t a = world.bodies.dense_of[pair.body_a];
+    std::uint32_t b = world.bodies.dense_of[pair.body_b];
     if (!moves(world, a)) std::swap(a, b);
     if (moves(world, a)) task(a, b);
   }
@@ -54,10 +56,10 @@ void for_links(const WorldState& world, Task&& task) {
 }
 
 // The awake bodies by slot: where they lie in memory differs in a world that was restored.
-std::vector<std::uint32_t> awake_by_slot(const WorldState& world) {
+StepList<std::uint32_t> awake_by_slot(WorldState& world) {
   const BodyStore& bodies = world.bodies;
-  std::vector<std::uint32_t> slots(bodies.slot_of.begin() + bodies.awake_begin,
-                                   bodies.slot_of.begin() + bodies.awake_end);
+  StepList<std::uint32_t> slots(bodies.slot_of.begin() + bodies.awake_begin,
+                                bodies.slot_of.begin() + bodies.awake_end, &world.memory);
   std::sort(slots.begin(), slots.end());
   return slots;
 }
@@ -68,7 +70,7 @@ void number_islands(WorldState& world, Solver& solver) {
   solver.place.assign(end, {});
   solver.parents.resize(end);
   std::iota(solver.parents.begin(), solver.parents.end(), 0u);
-  std::vector<std::uint8_t> held(end, 0);
+  StepList<std::uint8_t> held(end, 0, &world.memory);
   for_links(world, [&](std::uint32_t a, std::uint32_t b) {
     held[a] = 1;
     if (!moves(world, b)) return;
@@ -76,9 +78,9 @@ void number_islands(WorldState& world, Solver& solver) {
     link(solver.parents, a, b);
   });
   solver.count = 0;
-  std::vector<std::uint32_t> island_of(end, kNone);
+  StepList<std::uint32_t> island_of(end, kNone, &world.memory);
   for (const std::uint32_t slot : awake_by_slot(world)) {
-    const std::uint32_t i = world.bodies.info[slot].dense;
+    const std::uint32_t i = world.bodies.dense_of[slot];
     const std::uint32_t root = root_of(solver.parents, i);
     if (held[i] == 0) continue;
     if (island_of[root] == kNone) {
@@ -106,15 +108,31 @@ void leave_to_fast_solver(Solver& solver, Island& island) {
   island.edges.clear();
 }
 
-void leave_uncalled_islands(const WorldState& world, Solver& solver) {
+// What joints hold together is left to their own direct solver, which takes turns with contacts.
+void leave_jointed_islands(WorldState& world, Solver& solver) {
+  for (std::uint32_t slot = 0; slot < world.joints.info.size(); ++slot) {
+    if (!world.joints.info[slot].alive) continue;
+    const JointBodies bodies = bodies_of(world, slot);
+    for (int k = 0; k < bodies.count; ++k) {
+      const std::uint32_t dense = dense_of(world, bodies.slot[k]);
+      if (dense >= solver.place.size() || solver.place[dense].island == kNone) continue;
+      Island& island = solver.islands[solver.place[dense].island];
+      newton::hear_no_more(world, island);
+      leave_to_fast_solver(solver, island);
+    }
+  }
+}
+
+void leave_uncalled_islands(WorldState& world, Solver& solver) {
   for (std::uint32_t i = 0; i < solver.count; ++i) {
     Island& island = solver.islands[i];
     const bool called =
         std::any_of(island.bodies.begin(), island.bodies.end(), [&](const auto& body) {
           return world.bodies.info[world.bodies.slot_of[body.dense]].newton_steps > 0;
         });
-    if (!called || island.bodies.size() > newton::tolerance::kMostBodies)
-      leave_to_fast_solver(solver, island);
+    const bool too_large = island.bodies.size() > newton::tolerance::kMostBodies;
+    if (called && too_large) newton::hear_no_more(world, island);
+    if (!called || too_large) leave_to_fast_solver(solver, island);
   }
 }
 
@@ -123,7 +141,7 @@ void leave_grained_islands(const WorldState& world, Solver& solver) {
   for (const Pair& pair : world.pairs) {
     if (!pair.grained || pair.contact_count == 0) continue;
     for (const std::uint32_t body : {pair.body_a, pair.body_b}) {
-      const std::uint32_t dense = world.bodies.info[body].dense;
+      const std::uint32_t dense = world.bodies.dense_of[body];
       if (dense >= solver.place.size() || solver.place[dense].island == kNone) continue;
       leave_to_fast_solver(solver, solver.islands[solver.place[dense].island]);
     }
@@ -133,9 +151,9 @@ void leave_grained_islands(const WorldState& world, Solver& solver) {
 }  // namespace
 
 void find_newton_islands(WorldState& world) {
-  const ContactSolver wanted = world.settings.contact_solver;
+  const ContactSolver wanted = solver_of(world.settings);
   const bool chooses = wanted == ContactSolver::Auto;
-  if (wanted == ContactSolver::SoftStep || (chooses && !newton::choose_bodies(world))) {
+  if ((!chooses && wanted != ContactSolver::Newton) || (chooses && !newton::is_called(world))) {
     if (world.newton != nullptr) world.newton->count = 0;
     return;
   }
@@ -143,9 +161,10 @@ void find_newton_islands(WorldState& world) {
   Solver& solver = *world.newton;
   number_islands(world, solver);
   if (chooses) leave_uncalled_islands(world, solver);
+  if (chooses && !world.joints.empty()) leave_jointed_islands(world, solver);
   if (world.counts.grained > 0) leave_grained_islands(world, solver);
   solver.too_large = 0;
-  std::vector<std::uint8_t> fits(solver.count, 0);
+  StepList<std::uint8_t> fits(solver.count, 0, &world.memory);
   parallel_for(world, solver.count, 1, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) {
       Island& island = solver.islands[i];
@@ -158,10 +177,24 @@ void find_newton_islands(WorldState& world) {
                     : 0;
     }
   });
+  std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < solver.count; ++i) {
-    if (fits[i] != 0 || solver.islands[i].bodies.empty()) continue;
+    Island& island = solver.islands[i];
+    if (island.bodies.empty()) continue;
+    if (fits[i] != 0 && !(chooses && island.matrix.products() > newton::tolerance::kMostProducts)) {
+      ++kept;
+      continue;
+    }
     ++solver.too_large;
-    leave_to_fast_solver(solver, solver.islands[i]);
+    if (chooses) newton::hear_no_more(world, island);
+    leave_to_fast_solver(solver, island);
+  }
+  for (std::uint32_t i = 0; i < solver.count; ++i) {
+    Island& island = solver.islands[i];
+    if (island.bodies.empty()) continue;
+    island.budget = chooses ? static_cast<std::uint32_t>(newton::tolerance::kMostWork / kept /
+                                                         island.matrix.products())
+                            : std::numeric_limits<std::uint32_t>::max();
   }
 }
 

@@ -6,6 +6,7 @@
 #include "solver/newton/island_build.h"
 #include "solver/newton/newton_method.h"
 #include "solver/row_end.h"
+#include "world/forced.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -62,7 +63,7 @@ void solve_island(WorldState& world, Island& island) {
   island.v_rest = island.v;
   newton::store_island(world, island);
   note_effort(island);
-  if (overlaps(island)) {
+  if (overlaps(island) && island.total_factorizations < island.budget) {
     island.solves_positions = true;
     keep_as_warm(island);
     newton::solve(island);
@@ -111,6 +112,7 @@ void settle_newton_islands(WorldState& world) {
 }
 
 void report_newton_islands(WorldState& world) {
+  const bool chosen = solver_of(world.settings) == ContactSolver::Auto;
   StepReport& report = world.report;
   const newton::Solver& solver = *world.newton;
   report.newton_too_large = solver.too_large;
@@ -121,6 +123,7 @@ void report_newton_islands(WorldState& world) {
     report.newton_factorizations += island.total_factorizations;
     report.newton_fallbacks += island.fallbacks;
     report.newton_residual = std::max(report.newton_residual, island.worst_lack);
+    if (chosen && island.total_factorizations > island.budget) newton::hear_no_more(world, island);
   }
 }
 

@@ -157,13 +157,18 @@ void solve(Island& island) {
   std::vector<Twist>& start = island.v_start;
   start = island.v;
   int interior_points = 0;
+  const auto most_interior_points = [&] {
+    const auto done =
+        island.total_factorizations + static_cast<std::uint32_t>(island.factorizations);
+    return done < island.budget ? tolerance::kInteriorPoints : 1;
+  };
   bool done = false, found = true;
   for (int outer = 0; outer < tolerance::kOuterIterations && !done; ++outer) {
     choose_discs(island, found && outer < tolerance::kDiscIterations);
     found = minimize(
         island, interior_points == 0 ? tolerance::kPlainIterations : tolerance::kInnerIterations);
     if (!found) {
-      if (interior_points == tolerance::kInteriorPoints) break;
+      if (interior_points >= most_interior_points()) break;
       if (interior_points++ == 0) {
         island.v = start;
         start_over(island);
@@ -189,7 +194,7 @@ void solve(Island& island) {
     island.fell_back = true;
     return;
   }
-  if (done) velocities_from_impulses(island);
+  velocities_from_impulses(island);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail::newton

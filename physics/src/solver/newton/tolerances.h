@@ -44,15 +44,23 @@ inline constexpr double kTouching = 1e-3;
 inline constexpr double kPush = 0.2;
 
 // When an island calls for this solver by itself (choose.h; physics/README.md has the map that was
-// measured). A body on one that is so many times lighter [-]; a contact that presses with so many
-// weights of the lighter body [-]; loaded overlap of so many slops [-]; steps for which the two
-// must have touched for that [-]; steps for which a body that has called stays [-]; islands with
-// more bodies stay with the fast solver [-].
+// measured). A body on one that is so many times lighter [-], on it: cosine of the angle between
+// the normal and the vertical [-]; a contact that presses with so many weights of the lighter body
+// [-]; loaded overlap of so many slops [-]; steps for which that must go on [-]; steps for which a
+// body that was heard stays [-].
 inline constexpr Real kLightest = Real(10);
+inline constexpr Real kLies = Real(0.5);
 inline constexpr Real kMostLoad = Real(12.5);
 inline constexpr Real kMostOverlap = Real(10);
-inline constexpr unsigned kStepsToBeLoad = 8;
+inline constexpr unsigned char kStepsToBeLoad = 8;
 inline constexpr unsigned char kStepsToStay = 60;
+// What it may cost then, in products of 6x6 blocks (0.4 us each with all that goes with them): in
+// one factorization, a column of 200 bodies; in one step of the world, about 24 ms. An island
+// that is too large or has taken more is not heard for so many steps [-]; larger ones are not even
+// looked at [bodies].
+inline constexpr std::size_t kMostProducts = 600;
+inline constexpr std::size_t kMostWork = 60'000;
+inline constexpr unsigned char kStepsOfPause = 240;
 inline constexpr std::size_t kMostBodies = 300;
 
 // Blocks of 288 bytes in one island's factor [-]: 144 MB. Larger islands stay with the fast solver.

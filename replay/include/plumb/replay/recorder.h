@@ -40,7 +40,8 @@ struct RecorderOptions {
   bool visuals = true;            // shapes, joints and labels in 3D
   bool contacts = true;           // contact points and normals, each arrow scaled by its impulse
   bool body_states = true;        // exact states of all moving bodies, for a diff by name
-  bool plots = true;              // energies, counts, stage timings (WorldSettings::profiling)
+  // Energies, counts, stage timings (WorldSettings::profiling), ledger (StepDiagnostics::ledger).
+  bool plots = true;
   bool text_log = true;           // plan and events
   int event_lines_per_step = 32;  // [-] >= 0; the rest is counted, not listed
 };

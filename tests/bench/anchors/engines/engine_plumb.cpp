@@ -65,12 +65,12 @@ std::unique_ptr<Engine> make(const Scene& scene, const EngineOptions& options) {
 std::vector<EngineKind> plumb_kinds() {
   constexpr int kThreads = 256;
   const std::string precision = std::string(kPrecisionName) + ", ";
-  return {
-      {"ours", precision + "soft steps, 4 substeps", true, kThreads, make<ContactSolver::SoftStep>},
-      {"ours-auto", precision + "solver by the scene, 4 substeps", true, kThreads,
-       make<ContactSolver::Auto>},
-      {"ours-newton", precision + "accurate solver, 4 substeps", true, kThreads,
-       make<ContactSolver::Newton>}};
+  return {{"ours", precision + "solver by the scene, 4 substeps", true, kThreads,
+           make<ContactSolver::Auto>},
+          {"ours-soft", precision + "soft steps, 4 substeps", true, kThreads,
+           make<ContactSolver::SoftStep>},
+          {"ours-newton", precision + "accurate solver, 4 substeps", true, kThreads,
+           make<ContactSolver::Newton>}};
 }
 
 }  // namespace plumb::anchors
