@@ -15,6 +15,7 @@
 
 #include "accuracy/chaos.h"
 #include "accuracy/report.h"
+#include "accuracy/settings_table.h"
 
 namespace plumb::accuracy {
 namespace {
@@ -135,6 +136,45 @@ TEST(AccuracyLab, ReportsNameEveryCellAndWhereItWasMeasured) {
   EXPECT_EQ(rows, 3);
 }
 
+// Published figures stand under ours in the publication's measure, each engine's as a curve over
+// the step, with a time or without; what only stood is marked as a bound.
+TEST(AccuracyLab, PublishedFiguresAreDrawnUnderOurs) {
+  int cases = 0;
+  for (const CaseInfo& info : catalogue()) {
+    CaseResult result = made_up({{1e-2, 1e-4}, {1e-3, 2e-4}, {1e-4, 4e-4}});
+    result.info = &info;
+    const std::string script = chart_script({&result}, info.family, "png", "x");
+    EXPECT_EQ(script.find("as published") != std::string::npos, !info.published.empty());
+    if (info.published.empty()) continue;
+    ++cases;
+    EXPECT_GT(info.measure, 0) << info.name;
+    EXPECT_GT(info.body_seconds, 0) << info.name;
+    EXPECT_NE(script.find("mean square [" + info.measure_unit + "]"), std::string::npos);
+    for (const Published& figure : info.published) {
+      const std::string bound = figure.at_most ? ": at most" : "";
+      EXPECT_NE(script.find("title '" + figure.engine + ", published" + bound + "'"),
+                std::string::npos)
+          << info.name;
+    }
+    const std::string table = table_of(result);
+    EXPECT_NE(table.find(info.published[0].engine + ", published"), std::string::npos);
+  }
+  EXPECT_EQ(cases, 6);  // rolling twice, bouncing, 666, elastic 666, Kapla
+}
+
+// SimBenchmark's rolling scene in every direction alike: a cone, no pyramid. Its velocities are of
+// first order in the step, as all that rolls (C6): 1.3e-2 m^2/s^2 at 1/60 s, where 1e-12 is asked
+// for.
+TEST(AccuracyLab, RollingIsTheSameAlongTheAxisAndAcross) {
+  const CellCode* code = cells_of(Precision::F64);
+  ASSERT_NE(code, nullptr);
+  const Readings along = code->run("rolling", {}), across = code->run("rolling60", {});
+  ASSERT_TRUE(along.finite && across.finite);
+  EXPECT_LT(along.values[0], 0.12);
+  EXPECT_LT(across.values[0], 0.12);
+  EXPECT_NEAR(along.values[0], across.values[0], 0.02 * along.values[0]);
+}
+
 // Names are unique, and none is that of a family: a word on the command line means one thing.
 TEST(AccuracyLab, CaseNamesMeanOneThing) {
   for (const CaseInfo& info : catalogue()) {
@@ -142,6 +182,58 @@ TEST(AccuracyLab, CaseNamesMeanOneThing) {
     for (int f = 0; f < kFamilyCount; ++f) EXPECT_NE(info.name, name_of(static_cast<Family>(f)));
     EXPECT_GT(info.scale, 0);
   }
+}
+
+// A reference is only one if it is far more right than what it judges: that of joints is of fourth
+// order, and converged to less than what the best cells are off by.
+TEST(AccuracyLab, ReferenceOfJointsIsConvergedBelowTheBestCells) {
+  const CaseInfo& chain = *find_case("chain");
+  KnobChoice choice;
+  choice.dt = {1.0 / 240};
+  choice.joint_order = {2, 4};
+  std::string problem;
+  const CaseResult result = run_case(chain, series_of(chain, choice), {}, problem);
+  ASSERT_EQ(problem, "");
+  ASSERT_EQ(result.cells.size(), 2u);
+  EXPECT_LT(result.reference_spread, 1e-9);
+  for (const CellResult& cell : result.cells) EXPECT_GT(cell.error, 10 * result.reference_spread);
+  EXPECT_LT(100 * result.cells[1].error, result.cells[0].error);
+}
+
+// The table that settings are chosen from: a row a kind of scene at each setting, of jointed scenes
+// one for each order of joints, the fourth order being the more accurate and the dearer.
+TEST(AccuracyLab, SettingsTableHasBothOrdersOfJointsAndOneOfTheRest) {
+  const TableGrid grid{{60}, {2}, {Precision::F64}};
+  std::size_t done = 0;
+  std::string problem;
+  const std::string text = settings_table(
+      grid, [&](std::size_t n) { done += n; }, problem);
+  ASSERT_EQ(problem, "");
+  EXPECT_EQ(done, settings_table_cells(grid));
+  std::istringstream lines(text);
+  std::vector<std::string> kinds;
+  double error[2] = {}, cost[2] = {};
+  for (std::string line; std::getline(lines, line);) {
+    char kind[20];
+    int order = 0;
+    double e = 0, c = 0;
+    const int read =
+        std::sscanf(line.c_str(), " {\"f64\", SceneKind::%19[A-Za-z], 60, 2, %d, %lg, %lg},", kind,
+                    &order, &e, &c);
+    if (read != 4) continue;
+    kinds.emplace_back(kind + std::to_string(order));
+    ASSERT_TRUE(order == 2 || order == 4) << line;
+    if (std::string(kind) != "Jointed") continue;
+    error[order / 4] = e;
+    cost[order / 4] = c;
+  }
+  const std::vector<std::string> expected{"Free2",    "Bouncing2", "Sliding2",
+                                          "Jointed2", "Jointed4",  "Stacked2"};
+  EXPECT_EQ(kinds, expected);
+  EXPECT_GT(error[0], 10 * error[1]);
+  EXPECT_GT(error[1], 0);
+  EXPECT_GT(cost[0], 0);
+  EXPECT_GT(cost[1], 0);
 }
 
 #if defined(PLUMB_PROGRAM)

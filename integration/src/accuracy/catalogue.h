@@ -16,9 +16,10 @@ const char* name_of(Family family);
 // A figure that somebody else has published for the case [Kang 2018], on an i7-7700HQ.
 struct Published {
   std::string engine;
-  double dt;       // [s]
-  double measure;  // in the publication's own measure
-  double seconds;  // [s] of computing; 0: not given
+  double dt;             // [s]
+  double measure;        // in the publication's own measure
+  double seconds;        // [s] of computing; 0: not given
+  bool at_most = false;  // the measure is not given, but what stood has at most this
 };
 
 struct CaseInfo {
@@ -36,9 +37,11 @@ struct CaseInfo {
   bool rubs_askew = false;  // friction cones are compared
   bool flies_fast = false;  // continuous collision is compared
   double measure = 0;       // published measure = this times the square of the error
+  std::string measure_unit = "";
   double body_seconds = 0;  // [s] bodies times simulated time
   std::vector<Published> published = {};
-  bool chaotic = false;  // no error beyond a horizon: ensembles instead (chaos.h)
+  std::vector<double> rates = {};  // [Hz] of its steps; empty: those of its family (grid.cpp)
+  bool chaotic = false;            // no error beyond a horizon: ensembles instead (chaos.h)
 };
 
 const std::vector<CaseInfo>& catalogue();

@@ -12,7 +12,9 @@ namespace {
 const std::vector<double>& rates(const CaseInfo& info, bool quick) {  // [Hz]
   static const std::vector<double> few{15, 30, 60, 120, 240}, all{15, 30, 60, 120, 240, 480, 1000},
       published{60, 100, 240, 1000}, published_few{60};
-  if (info.family == Family::Published) return quick ? published_few : published;
+  if (info.family == Family::Published && quick) return published_few;
+  if (!info.rates.empty()) return info.rates;
+  if (info.family == Family::Published) return published;
   return quick ? few : all;
 }
 

@@ -41,9 +41,10 @@ std::string processor() {
 std::string published_of(const CaseResult& result) {
   const CaseInfo& info = *result.info;
   if (info.published.empty()) return {};
-  std::string out = "    as published [Kang 2018]: mean square, seconds for the whole scene\n";
+  std::string out = "    as published [Kang 2018]: mean square [" + info.measure_unit +
+                    "], seconds for the whole scene\n";
   const auto row = [&](const std::string& who, double dt, double measure, double seconds) {
-    out += "      " + padded(who, 30) + padded(step_words(dt), 8) +
+    out += "      " + padded(who, 50) + padded(step_words(dt), 8) +
            padded(number(measure, "%.2e"), 12, true) +
            padded(seconds > 0 ? number(seconds) + " s" : "-", 12, true) + "\n";
   };
@@ -55,13 +56,14 @@ std::string published_of(const CaseResult& result) {
       row(curve.engine + ", here", point.dt, info.measure * point.error * point.error,
           point.cost * info.body_seconds);
   for (const Published& p : info.published)
-    row(p.engine + ", published", p.dt, p.measure, p.seconds);
+    row(p.engine + (p.at_most ? ", published: at most" : ", published"), p.dt, p.measure,
+        p.seconds);
   return out;
 }
 
 std::string table_row(const std::string& mark, const std::string& label, double dt,
                       const std::string& substeps, double error, double cost) {
-  return "  " + padded(mark, 2) + padded(label, 46) + padded(step_words(dt), 8) +
+  return "  " + padded(mark, 2) + padded(label, 50) + padded(step_words(dt), 8) +
          padded(substeps, 10) +
          padded(std::isfinite(error) ? number(error, "%.2e") : "not finite", 22, true) +
          padded(number(1e6 * cost), 12, true) + "\n";
@@ -93,7 +95,7 @@ std::string table_of(const CaseResult& result) {
   if (!info.exact)
     out += "    against double at 1/3840 s, which differs from 1/1920 s by " +
            number(result.reference_spread, "%.1e") + " " + info.unit + "\n";
-  out += "    " + padded("series", 46) + padded("step", 8) + padded("substeps", 10) +
+  out += "    " + padded("series", 50) + padded("step", 8) + padded("substeps", 10) +
          padded("error [" + info.unit + "]", 22, true) + padded("us/body-s", 12, true) + "\n";
   for (const CellResult& cell : result.cells)
     out += table_row(cell.pareto ? "* " : "", result.series[cell.series].label, cell.knobs.dt,

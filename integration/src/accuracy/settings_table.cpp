@@ -13,49 +13,55 @@ namespace {
 struct Kind {
   const char* name;  // of SceneKind
   std::vector<std::string> cases;
+  bool jointed = false;  // measured at both orders of joints
 };
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list{{"Free", {"F2", "F6", "F7", "H7"}},
                                       {"Bouncing", {"I1", "I3", "I4"}},
                                       {"Sliding", {"C1", "C3", "C5", "C6"}},
-                                      {"Jointed", {"F8", "F9", "chain"}},
+                                      {"Jointed", {"F8", "F9", "chain"}, true},
                                       {"Stacked", {"C18"}}};
   return list;
 }
-constexpr int kRates[] = {30, 60, 120, 240, 480};  // [Hz]
-constexpr int kSubsteps[] = {1, 2, 4, 8, 16};
-constexpr Precision kPrecisions[] = {Precision::F32, Precision::F32D, Precision::F64};
+constexpr int kJointOrders[] = {2, 4};
 
-std::vector<Series> series_for(Precision precision) {
+std::vector<Series> series_for(const TableGrid& grid, const Kind& kind, Precision precision) {
   Series series{"all", {}, false};
-  for (const int rate : kRates)
-    for (const int substeps : kSubsteps) {
-      Knobs knobs;
-      knobs.dt = 1.0 / rate;
-      knobs.substeps = substeps;
-      knobs.precision = precision;
-      series.settings.push_back(knobs);
-    }
+  for (const int order : kJointOrders)
+    for (const int rate : grid.rates)
+      for (const int substeps : grid.substeps) {
+        Knobs knobs;
+        if (order != knobs.joint_order && !kind.jointed) continue;
+        knobs.dt = 1.0 / rate;
+        knobs.substeps = substeps;
+        knobs.joint_order = order;
+        knobs.precision = precision;
+        series.settings.push_back(knobs);
+      }
   return {series};
 }
 
 std::string row_of(const Kind& kind, const Knobs& knobs, double error, double cost) {
   char text[160];
-  std::snprintf(text, sizeof text, "    {\"%s\", SceneKind::%s, %d, %d, %.2e, %.2e},\n",
+  std::snprintf(text, sizeof text, "    {\"%s\", SceneKind::%s, %d, %d, %d, %.2e, %.2e},\n",
                 kPrecisionNames[static_cast<int>(knobs.precision)], kind.name,
-                static_cast<int>(1 / knobs.dt + 0.5), knobs.substeps, std::min(error, 1e9), cost);
+                static_cast<int>(1 / knobs.dt + 0.5), knobs.substeps, knobs.joint_order,
+                std::min(error, 1e9), cost);
   return text;
 }
 
 }  // namespace
 
-std::size_t settings_table_cells() {
-  std::size_t cases = 0;
-  for (const Kind& kind : kinds()) cases += kind.cases.size();
-  return cases * std::size(kRates) * std::size(kSubsteps) * std::size(kPrecisions);
+std::size_t settings_table_cells(const TableGrid& grid) {
+  std::size_t cells = 0;
+  for (const Precision precision : grid.precisions)
+    for (const Kind& kind : kinds())
+      cells += kind.cases.size() * cell_count(series_for(grid, kind, precision));
+  return cells;
 }
 
-std::string settings_table(const std::function<void(std::size_t)>& progress, std::string& problem) {
+std::string settings_table(const TableGrid& grid, const std::function<void(std::size_t)>& progress,
+                           std::string& problem) {
   const Circumstances where = circumstances();
   std::string out =
       "// Written by `plumb accuracy --table physics/src/world/measured_table.h`; see "
@@ -68,10 +74,10 @@ std::string settings_table(const std::function<void(std::size_t)>& progress, std
   LabOptions options;
   options.knobs.quick = true;
   options.progress = progress;
-  for (const Precision precision : kPrecisions) {
+  for (const Precision precision : grid.precisions) {
     for (const Kind& kind : kinds()) {
       std::vector<double> error, cost;
-      const std::vector<Series> series = series_for(precision);
+      const std::vector<Series> series = series_for(grid, kind, precision);
       for (const std::string& name : kind.cases) {
         const CaseInfo& info = *find_case(name);
         const CaseResult result = run_case(info, series, options, problem);

@@ -13,28 +13,33 @@ namespace detail {
 namespace {
 
 struct Candidate {
-  int rate, substeps;
+  int rate, substeps, joint_order;
   double error, cost;
 };
 
 // One entry a step and number of substeps; for Any the worst of the kinds in both respects.
-std::vector<Candidate> candidates_of(SceneKind kind, double dt) {
-  std::vector<Candidate> out;
+void add_candidates(SceneKind kind, double dt, int joint_order, std::vector<Candidate>& out) {
   for (const MeasuredSetting& row : kMeasured) {
     if (std::string_view(row.precision) != kPrecisionName) continue;
     if (kind != SceneKind::Any && row.kind != kind) continue;
+    if (row.kind == SceneKind::Jointed && row.joint_order != joint_order) continue;
     constexpr double kSameStep = 1 + 1e-9;  // 1.0/60 is not 60 Hz to the last bit
     if (dt > 0 && 1 > kSameStep * dt * row.rate) continue;
     const auto same = std::find_if(out.begin(), out.end(), [&](const Candidate& c) {
-      return c.rate == row.rate && c.substeps == row.substeps;
+      return c.rate == row.rate && c.substeps == row.substeps && c.joint_order == joint_order;
     });
     if (same == out.end()) {
-      out.push_back({row.rate, row.substeps, row.error, row.cost});
+      out.push_back({row.rate, row.substeps, joint_order, row.error, row.cost});
     } else {
       same->error = std::max(same->error, row.error);
       same->cost = std::max(same->cost, row.cost);
     }
   }
+}
+std::vector<Candidate> candidates_of(SceneKind kind, double dt) {
+  std::vector<Candidate> out;
+  add_candidates(kind, dt, 2, out);
+  if (kind == SceneKind::Any || kind == SceneKind::Jointed) add_candidates(kind, dt, 4, out);
   return out;
 }
 
@@ -42,6 +47,7 @@ SettingsChoice choice_of(const Candidate& candidate, const Status& status) {
   SettingsChoice choice;
   choice.status = status;
   choice.settings.substeps = candidate.substeps;
+  choice.settings.joint_order = candidate.joint_order;
   choice.dt = 1.0 / candidate.rate;
   choice.error = candidate.error;
   choice.cost = candidate.cost;

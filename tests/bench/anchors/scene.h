@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +49,7 @@ struct Body {
   double density = 1000;                              // [kg/m^3]
   double mass = 0;                                    // [kg] 0: static
   Vector3d inertia = Vector3d::Zero();                // [kg m^2] principal, in body axes
+  Vector3d force = Vector3d::Zero();                  // [N] always, at the centre of mass
 };
 
 // Holds two points together.
@@ -64,6 +66,7 @@ struct Scene {
   int steps = 300;
   int warm_up = 30;  // steps left out of the timing
   double friction = 0.6, restitution = 0;
+  double friction_among = 0;   // of bodies on each other, where it is above `friction`
   bool collide = true;         // false: shapes are there but meet nothing
   bool sleeping = false;       // whether engines may put bodies to sleep
   std::vector<Body> bodies{};  // dynamic
@@ -77,6 +80,9 @@ struct Scene {
   bool counts_flips = false;    // of the first body's y axis
   bool watches_energy = false;  // at every step, not only at the end
   Vector3d lower{-1e3, -2, -1e3}, upper{1e3, 1e3, 1e3};  // [m] a body outside has escaped
+
+  // Of bodies on each other; on the ground it is `friction`.
+  [[nodiscard]] double friction_of_bodies() const { return std::max(friction, friction_among); }
 };
 
 // What an engine says of a body, in double.

@@ -33,6 +33,7 @@ anchors::Body body_of(const SetupBody& from) {
   body.orientation = from.orientation;
   body.velocity = from.velocity;
   body.spin = from.spin;
+  body.force = from.force;
   return body;
 }
 
@@ -78,6 +79,7 @@ Scene scene_of(const Setup& setup) {
   Scene scene{.name = setup.name};
   scene.gravity = setup.gravity;
   scene.friction = setup.friction;
+  scene.friction_among = setup.friction_among;
   scene.restitution = setup.restitution;
   if (setup.floor) scene.ground = {anchors::fixed_plane(setup.normal)};
   for (const SetupBody& body : setup.bodies) scene.bodies.push_back(body_of(body));

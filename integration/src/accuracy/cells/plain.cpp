@@ -1,4 +1,6 @@
 // The cases that are plain data (accuracy/setups), in a world of ours.
+#include <algorithm>
+
 #include "accuracy/cells/build.h"
 #include "accuracy/setups/setup.h"
 
@@ -18,12 +20,20 @@ class Plain : public Case {
     seconds = setup.seconds;
     const Setup all = accuracy::repeated(setup, making.copies);
     bodies = static_cast<int>(all.bodies.size());
-    const Material surface = material(all.friction, all.restitution);
-    if (all.floor) add_floor(world, surface, all.normal);
-    for (const SetupBody& body : all.bodies) ids_.push_back(make_body(body, surface));
+    const Material surface = material(std::max(all.friction, all.friction_among), all.restitution);
+    Material ground = material(all.friction, all.restitution);
+    ground.friction_rule = CombineRule::Minimum;
+    if (all.floor) add_floor(world, ground, all.normal);
+    for (const SetupBody& body : all.bodies) {
+      ids_.push_back(make_body(body, surface));
+      if (!body.force.isZero()) pulled_.emplace_back(ids_.back(), vec(body.force));
+    }
     for (const SetupJoint& joint : all.joints) join(joint);
     ids_.resize(setup.bodies.size());  // the first copy is the one looked at
     meter_->begin(read());
+  }
+  void before_step() override {
+    for (const auto& [body, force] : pulled_) must(world.apply_force(body, force));
   }
   void after_step() override { meter_->after_step(world.time(), read()); }
   [[nodiscard]] std::vector<double> readings() const override { return meter_->readings(read()); }
@@ -80,6 +90,7 @@ class Plain : public Case {
 
   accuracy::MeterPtr meter_;
   std::vector<BodyId> ids_;
+  std::vector<std::pair<BodyId, Vec3>> pulled_;  // [N]
 };
 
 }  // namespace

@@ -138,11 +138,25 @@ class Places : public Meter {
   }
 };
 
+class Displacement : public Meter {
+ public:
+  void begin(const BodyReadings& bodies) override { start_ = bodies; }
+  [[nodiscard]] std::vector<double> readings(const BodyReadings& end) const override {
+    double sum = 0;
+    for (std::size_t i = 0; i < end.size(); ++i)
+      sum += (end[i].position - start_[i].position).squaredNorm();
+    return {std::sqrt(sum / static_cast<double>(end.size()))};
+  }
+
+ private:
+  BodyReadings start_;
+};
+
 // Root of the mean over the steps of what `square_of` gives.
 class Rms : public Meter {
  public:
-  void after_step(double, const BodyReadings& bodies) override {
-    sum_ += square_of(bodies);
+  void after_step(double time, const BodyReadings& bodies) override {
+    sum_ += square_of(time, bodies);
     ++steps_;
   }
   [[nodiscard]] std::vector<double> readings(const BodyReadings&) const override {
@@ -150,7 +164,7 @@ class Rms : public Meter {
   }
 
  private:
-  [[nodiscard]] virtual double square_of(const BodyReadings& bodies) const = 0;
+  [[nodiscard]] virtual double square_of(double time, const BodyReadings& bodies) const = 0;
   double sum_ = 0;
   int steps_ = 0;
 };
@@ -169,7 +183,7 @@ class Energy : public Rms {
              mass_ * gravity_ * b.position.y();
     return sum;
   }
-  [[nodiscard]] double square_of(const BodyReadings& bodies) const override {
+  [[nodiscard]] double square_of(double, const BodyReadings& bodies) const override {
     return square(energy(bodies) / start_ - 1);
   }
   double gravity_, mass_, moment_, start_ = 0;
@@ -180,7 +194,7 @@ class Overlap : public Rms {
   explicit Overlap(double radius) : radius_(radius) {}
 
  private:
-  [[nodiscard]] double square_of(const BodyReadings& bodies) const override {
+  [[nodiscard]] double square_of(double, const BodyReadings& bodies) const override {
     double sum = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector3d& p = bodies[i].position;
@@ -191,6 +205,20 @@ class Overlap : public Rms {
     return sum;
   }
   double radius_;
+};
+
+class Acceleration : public Rms {
+ public:
+  explicit Acceleration(std::vector<Vector3d> right) : right_(std::move(right)) {}
+
+ private:
+  [[nodiscard]] double square_of(double time, const BodyReadings& bodies) const override {
+    double sum = 0;
+    for (std::size_t i = 0; i < right_.size(); ++i)
+      sum += (bodies[i].velocity - time * right_[i]).squaredNorm();
+    return sum;
+  }
+  std::vector<Vector3d> right_;
 };
 
 }  // namespace
@@ -208,6 +236,10 @@ MeterPtr places_meter() { return std::make_unique<Places>(); }
 MeterPtr slides_meter() { return std::make_unique<Slides>(); }
 MeterPtr energy_meter(double gravity, double mass, double moment) {
   return std::make_unique<Energy>(gravity, mass, moment);
+}
+MeterPtr displacement_meter() { return std::make_unique<Displacement>(); }
+MeterPtr acceleration_meter(std::vector<Vector3d> right) {
+  return std::make_unique<Acceleration>(std::move(right));
 }
 MeterPtr overlap_meter(double radius) { return std::make_unique<Overlap>(radius); }
 

@@ -43,6 +43,10 @@ MeterPtr places_meter();  // [m] three numbers a body
 MeterPtr slides_meter();  // [m] rms over the bodies of their ways in x, z
 MeterPtr energy_meter(double gravity, double mass, double moment);  // [-] rms, relative
 MeterPtr overlap_meter(double radius);  // [m] rms of balls' overlaps with each other and the floor
+MeterPtr displacement_meter();          // [m] rms over the bodies, end against start
+// [m/s] rms over the steps of the velocities of the first bodies against these accelerations
+// [m/s^2] from rest, all of them together.
+MeterPtr acceleration_meter(std::vector<Eigen::Vector3d> right);
 
 // The attitude as nine numbers whose distance is the angle between two, as long as it is small.
 void append_attitude(std::vector<double>& out, const Eigen::Quaterniond& q);

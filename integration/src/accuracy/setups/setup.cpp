@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "accuracy/random.h"
+#include "accuracy/setups/bodies.h"
+#include "accuracy/setups/published.h"
 
 namespace plumb::accuracy {
 namespace {
@@ -11,21 +12,10 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kGravity = 9.81;  // [m/s^2]
 constexpr double kPi = std::numbers::pi;
 
 Quaterniond turn(double angle, const Vector3d& axis) {
   return Quaterniond(Eigen::AngleAxisd(angle, axis));
-}
-
-SetupBody ball(double mass, double radius, const Vector3d& position) {
-  SetupBody body;
-  body.shape = SetupBody::Shape::Sphere;
-  body.radius = radius;
-  body.mass = mass;
-  body.moments = Vector3d::Constant(0.4 * mass * radius * radius);
-  body.position = position;
-  return body;
 }
 
 // --- free ----------------------------------------------------------------------------------------
@@ -95,12 +85,7 @@ Setup on_floor(const char* name, double seconds, double slope, double friction, 
 // A plate of 1000 kg/m^3, 1 m by 1 m, 10 cm thick.
 Setup plate_on_floor(const char* name, double seconds, double slope, double friction,
                      double speed) {
-  SetupBody plate;
-  plate.shape = SetupBody::Shape::Box;
-  plate.half = {0.5, 0.05, 0.5};
-  plate.mass = 1000 * 8 * plate.half.prod();
-  const Vector3d h = plate.half.cwiseProduct(plate.half);
-  plate.moments = plate.mass / 3 * Vector3d(h.y() + h.z(), h.z() + h.x(), h.x() + h.y());
+  const SetupBody plate = box(1000 * 0.1, {0.5, 0.05, 0.5}, Vector3d::Zero());
   return on_floor(name, seconds, slope, friction, speed, plate, plate.half.y());
 }
 // C2: plates that all leave one place at 25 m/s, each with a heading of its own.
@@ -168,50 +153,8 @@ Setup chain() {  // ten links on ball joints, let go level; where they are after
   return s;
 }
 
-// --- published -----------------------------------------------------------------------------------
-// Scenes of SimBenchmark [Kang 2018] with its measures. Kapla's tower is not told well enough in
-// the reference cases to be built again.
-
-constexpr double kMarble = 0.1;  // [m] radius; 10 kg
-
-Setup marbles(const char* name, double seconds, double restitution) {
-  Setup s{.name = name, .seconds = seconds};
-  s.floor = true;
-  s.restitution = restitution;
-  if (restitution > 0) {
-    s.meter = [] { return energy_meter(kGravity, 10, 0.4 * 10 * kMarble * kMarble); };
-  } else {
-    s.meter = [] { return overlap_meter(kMarble); };
-  }
-  return s;
-}
-
-Setup bouncing49() {
-  Setup s = marbles("bouncing49", 20, 1);
-  for (int i = -3; i <= 3; ++i)
-    for (int k = -3; k <= 3; ++k) s.bodies.push_back(ball(10, kMarble, {1.0 * i, 5, 1.0 * k}));
-  return s;
-}
-
-// 666: a grid of 6 x 6 x 6 that is not quite even, its first layer at a height [m].
-Setup grid(const char* name, double lowest, double restitution) {
-  Setup s = marbles(name, 10, restitution);
-  Random random(666);
-  for (int j = 0; j < 6; ++j)
-    for (int i = 0; i < 6; ++i)
-      for (int k = 0; k < 6; ++k) {
-        const double x = 0.21 * i + random.uniform(0, 1e-3);
-        const double z = 0.21 * k + random.uniform(0, 1e-3);
-        const double y = lowest + 0.21 * j + random.uniform(0, 1e-3);
-        s.bodies.push_back(ball(10, kMarble, {x, y, z}));
-      }
-  return s;
-}
-
-}  // namespace
-
-const std::vector<Setup>& setups() {
-  static const std::vector<Setup> all = {
+std::vector<Setup> own_setups() {
+  return {
       top("F6", {1, 2, 3}, {0.1, 10, 0}),
       top("F7", {1, 1, 1.8}, {0.3, 0, 4}),
       top("H7", {1, 190, 190.9}, {20, 20, 5}),  // a rod: thin, and not quite round
@@ -226,10 +169,17 @@ const std::vector<Setup>& setups() {
       heavy_top(),
       pendulum(),
       chain(),
-      bouncing49(),
-      grid("666", 0.101, 0),
-      grid("elastic666", 1.101, 1),
   };
+}
+
+}  // namespace
+
+const std::vector<Setup>& setups() {
+  static const std::vector<Setup> all = [] {
+    std::vector<Setup> list = own_setups();
+    for (Setup& setup : published_setups()) list.push_back(std::move(setup));
+    return list;
+  }();
   return all;
 }
 

@@ -26,6 +26,7 @@ struct SetupBody {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // R_WB
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               // [m/s]
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();                   // [rad/s]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // [N] always, at the centre of mass
 };
 
 // Holds a point of two bodies together; a hinge their axes too, where an engine has both (a ball
@@ -45,7 +46,8 @@ struct Setup {
   Eigen::Vector3d apart{0, 0, 5};        // [m] from copy to copy
   bool floor = false;                    // solid below a plane through the origin
   Eigen::Vector3d normal{0, 1, 0};       // of that plane
-  double friction = 0, restitution = 0;  // of everything
+  double friction = 0, restitution = 0;  // of everything, but for ...
+  double friction_among = 0;             // of bodies on each other, where it is above `friction`
   std::vector<SetupBody> bodies{};       // of one copy
   std::vector<SetupJoint> joints{};
   std::function<MeterPtr()> meter{};

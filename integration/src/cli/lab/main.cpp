@@ -232,10 +232,12 @@ int write_table(const AccuracyOptions& options) {
     complain("accuracy: " + wrong);
     return kBadInput;
   }
-  ProgressBar bar(settings_table_cells(), !options.quiet);
+  const TableGrid grid;
+  ProgressBar bar(settings_table_cells(grid), !options.quiet);
   std::size_t done = 0;
   std::string problem;
-  const std::string text = settings_table([&](std::size_t n) { bar.show(done += n, -1); }, problem);
+  const std::string text = settings_table(
+      grid, [&](std::size_t n) { bar.show(done += n, -1); }, problem);
   if (problem.empty()) problem = write_whole(options.table, text);
   if (problem.empty()) return kOk;
   complain("accuracy: " + problem);

@@ -29,7 +29,10 @@ class Box3D : public Engine {
     }
     if (!scene.mesh.triangles.empty()) make_mesh(scene.mesh);
     for (const Body& body : scene.ground) add(scene, body, b3_staticBody);
-    for (const Body& body : scene.bodies) bodies_.push_back(add(scene, body, b3_dynamicBody));
+    for (const Body& body : scene.bodies) {
+      bodies_.push_back(add(scene, body, b3_dynamicBody));
+      if (!body.force.isZero()) pulled_.emplace_back(bodies_.back(), vec(body.force));
+    }
     b3BodyDef nowhere = b3DefaultBodyDef();
     const b3BodyId anchor = b3CreateBody(world_, &nowhere);
     for (const BallJoint& joint : scene.joints) {
@@ -46,7 +49,10 @@ class Box3D : public Engine {
     for (b3HullData* hull : hulls_) b3DestroyHull(hull);
     if (mesh_ != nullptr) b3DestroyMesh(mesh_);
   }
-  void step(double dt) override { b3World_Step(world_, static_cast<float>(dt), kSubsteps); }
+  void step(double dt) override {
+    for (const auto& [body, force] : pulled_) b3Body_ApplyForceToCenter(body, force, true);
+    b3World_Step(world_, static_cast<float>(dt), kSubsteps);
+  }
   void read(std::vector<BodyState>& out) const override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const b3Quat q = b3Body_GetRotation(bodies_[i]);
@@ -82,7 +88,10 @@ class Box3D : public Engine {
     const b3BodyId made = b3CreateBody(world_, &def);
     b3ShapeDef shape = b3DefaultShapeDef();
     shape.density = static_cast<float>(body.density);
-    shape.baseMaterial.friction = static_cast<float>(scene.friction);
+    const double among = scene.friction_of_bodies();  // Box3D takes the geometric mean
+    const bool ground = type == b3_staticBody && among > 0;
+    shape.baseMaterial.friction =
+        static_cast<float>(ground ? scene.friction * scene.friction / among : among);
     shape.baseMaterial.restitution = static_cast<float>(scene.restitution);
     if (!scene.collide) shape.filter.maskBits = 0;
     const auto radius = static_cast<float>(body.shape.radius);
@@ -132,6 +141,7 @@ class Box3D : public Engine {
   std::vector<b3HullData*> hulls_;
   b3MeshData* mesh_ = nullptr;
   std::vector<b3BodyId> bodies_;
+  std::vector<std::pair<b3BodyId, b3Vec3>> pulled_;  // [N]
 };
 
 }  // namespace

@@ -20,7 +20,10 @@ class Bullet : public Engine {
         world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     world_.setGravity(vec(scene.gravity));
     for (const Body& body : scene.ground) add(scene, body);
-    for (const Body& body : scene.bodies) bodies_.push_back(add(scene, body));
+    for (const Body& body : scene.bodies) {
+      bodies_.push_back(add(scene, body));
+      if (!body.force.isZero()) pulled_.emplace_back(bodies_.back(), vec(body.force));
+    }
     for (const BallJoint& joint : scene.joints) {
       btRigidBody& b = *bodies_[static_cast<std::size_t>(joint.b)];
       auto made = joint.a < 0 ? std::make_unique<btPoint2PointConstraint>(b, vec(joint.at_b))
@@ -35,7 +38,10 @@ class Bullet : public Engine {
     for (auto& joint : joints_) world_.removeConstraint(joint.get());
     for (auto& body : owned_) world_.removeRigidBody(body.get());
   }
-  void step(double dt) override { world_.stepSimulation(num(dt), 0, num(dt)); }
+  void step(double dt) override {
+    for (const auto& [body, force] : pulled_) body->applyCentralForce(force);
+    world_.stepSimulation(num(dt), 0, num(dt));
+  }
   void read(std::vector<BodyState>& out) const override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const btRigidBody& body = *bodies_[i];
@@ -100,7 +106,8 @@ class Bullet : public Engine {
     btRigidBody::btRigidBodyConstructionInfo info(num(body.mass), nullptr, shape,
                                                   vec(body.inertia));
     info.m_startWorldTransform = btTransform(quat(body.orientation), vec(body.position));
-    info.m_friction = num(std::sqrt(scene.friction));        // Bullet multiplies the two
+    const double among = std::sqrt(scene.friction_of_bodies());  // Bullet multiplies the two
+    info.m_friction = num(body.mass > 0 || among == 0 ? among : scene.friction / among);
     info.m_restitution = num(std::sqrt(scene.restitution));  // likewise
     auto made = std::make_unique<btRigidBody>(info);
     made->setLinearVelocity(vec(body.velocity));
@@ -122,6 +129,7 @@ class Bullet : public Engine {
   std::vector<btCollisionShape*> hulls_;
   std::vector<std::unique_ptr<btRigidBody>> owned_;
   std::vector<btRigidBody*> bodies_;
+  std::vector<std::pair<btRigidBody*, btVector3>> pulled_;  // [N]
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };
 

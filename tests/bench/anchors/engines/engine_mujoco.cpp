@@ -77,7 +77,10 @@ class MuJoCo : public Engine {
     if (model_ == nullptr) throw std::runtime_error(mjs_getError(spec.get()));
     data_.reset(mj_makeData(model_.get()));
     for (const mjsBody* body : made) bodies_.push_back(mjs_getId(body->element));
-    for (std::size_t i = 0; i < bodies_.size(); ++i) set_velocity(scene, tree, i);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      set_velocity(scene, tree, i);
+      put(data_->xfrc_applied + 6 * bodies_[i], scene.bodies[i].force);
+    }
   }
   void step(double dt) override {
     if (dt != model_->opt.timestep || !begun_) begin(dt);
@@ -154,8 +157,9 @@ class MuJoCo : public Engine {
     }
     if (fixed) put(geom->pos, body.position);
     put(geom->quat, turn);
-    geom->condim = scene.friction > 0 ? 3 : 1;
-    geom->friction[0] = scene.friction;  // of two the larger
+    geom->condim = scene.friction_of_bodies() > 0 ? 3 : 1;
+    geom->friction[0] = fixed ? scene.friction : scene.friction_of_bodies();
+    geom->priority = fixed ? 1 : 0;  // the ground's friction counts, whatever lies on it
     if (!scene.collide) geom->contype = geom->conaffinity = 0;
   }
   static mjsBody* add(mjsBody* to, const Scene& scene, const Body& body, const Body* parent,

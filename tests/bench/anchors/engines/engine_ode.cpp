@@ -14,7 +14,10 @@ constexpr int kMostPoints = 4;  // of a contact between two shapes
 
 class Ode : public Engine {
  public:
-  explicit Ode(const Scene& scene) : friction_(scene.friction), bounce_(scene.restitution) {
+  explicit Ode(const Scene& scene)
+      : friction_(scene.friction),
+        friction_among_(scene.friction_of_bodies()),
+        bounce_(scene.restitution) {
     static std::once_flag once;
     std::call_once(once, [] { dInitODE2(0); });
     dRandSetSeed(0);  // QuickStep shuffles its rows: the same in every run
@@ -42,6 +45,7 @@ class Ode : public Engine {
     if (mesh_ != nullptr) dGeomTriMeshDataDestroy(mesh_);
   }
   void step(double dt) override {
+    for (const auto& [body, force] : pulled_) dBodyAddForce(body, force.x(), force.y(), force.z());
     dSpaceCollide(space_, this, meet);
     dWorldQuickStep(world_, dt);
     dJointGroupEmpty(contacts_);
@@ -66,7 +70,8 @@ class Ode : public Engine {
       dContact contact{};
       contact.geom = points[i];
       contact.surface.mode = dContactApprox1;
-      contact.surface.mu = ode.friction_;
+      const bool among = body_a != nullptr && body_b != nullptr;
+      contact.surface.mu = among ? ode.friction_among_ : ode.friction_;
       if (ode.bounce_ > 0) {
         contact.surface.mode |= dContactBounce;
         contact.surface.bounce = ode.bounce_;
@@ -117,6 +122,7 @@ class Ode : public Engine {
   void add(const Scene& scene, const Body& body) {
     const dBodyID made = dBodyCreate(world_);
     bodies_.push_back(made);
+    if (!body.force.isZero()) pulled_.emplace_back(made, body.force);
     const Quaterniond& q = body.orientation;
     const dQuaternion turn = {q.w(), q.x(), q.y(), q.z()};
     dMass mass;
@@ -141,10 +147,11 @@ class Ode : public Engine {
   dSpaceID space_ = nullptr;
   dJointGroupID contacts_ = nullptr;
   dTriMeshDataID mesh_ = nullptr;
-  double friction_ = 0, bounce_ = 0;
+  double friction_ = 0, friction_among_ = 0, bounce_ = 0;
   std::vector<double> vertices_;
   std::vector<dTriIndex> corners_;
   std::vector<dBodyID> bodies_;
+  std::vector<std::pair<dBodyID, Vector3d>> pulled_;  // [N]
 };
 
 }  // namespace

@@ -17,8 +17,12 @@ class Plumb : public Engine {
         }()) {
     world_.set_job_system(jobs_.get());
     bodies_ = build_in(world_, scene);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (!scene.bodies[i].force.isZero())
+        pulled_.emplace_back(bodies_[i], build::vec(scene.bodies[i].force));
   }
   void step(double dt) override {
+    for (const auto& [body, force] : pulled_) build::must(world_.apply_force(body, force));
     const StepReport& report = world_.step(dt);
     if (!report.status.ok()) throw std::runtime_error(report.status.message);
   }
@@ -48,6 +52,7 @@ class Plumb : public Engine {
   std::unique_ptr<JobSystem> jobs_;
   PhysicsWorld world_;
   std::vector<BodyId> bodies_;
+  std::vector<std::pair<BodyId, Vec3>> pulled_;  // [N]
 };
 
 template <ContactSolver solver>

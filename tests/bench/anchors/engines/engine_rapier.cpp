@@ -25,6 +25,7 @@ RapierBody flat(const Body& body, bool dynamic) {
   copy(out.spin, body.spin);
   out.mass = static_cast<float>(body.mass);
   copy(out.inertia, body.inertia);
+  copy(out.force, body.force);
   return out;
 }
 
@@ -57,6 +58,7 @@ class Rapier : public Engine {
     RapierScene flat{};
     copy(flat.gravity, scene.gravity);
     flat.friction = static_cast<float>(scene.friction);
+    flat.friction_of_bodies = static_cast<float>(scene.friction_of_bodies());
     flat.restitution = static_cast<float>(scene.restitution);
     flat.collide = scene.collide ? 1 : 0;
     flat.sleeping = scene.sleeping ? 1 : 0;

@@ -28,6 +28,7 @@ if(EXISTS "${mujoco_library}")
   plumb_peer(mujoco LIBRARIES plumb_peer_mujoco INCLUDES "${wheel_folder}/mujoco/include")
 else()
   string(STRIP "${complaint}" complaint)
+  string(REGEX REPLACE ".*\n" "" complaint "${complaint}")  # pip's last word
   message(STATUS "Plumb: no MuJoCo (pip cannot fetch mujoco-core ${PLUMB_MUJOCO_VERSION}), so it is "
                  "not compared: ${complaint}")
 endif()

@@ -82,9 +82,11 @@ inline std::vector<BodyId> build_in(PhysicsWorld& world, const Scene& scene) {
       made.mass = properties;
       return build::must(world.create_body(made));
     }
-    Collider collider =
-        build::with(shape_of(body.shape, geometries),
-                    build::material(scene.friction, scene.restitution), body.density);
+    const bool ground = type == MotionType::Static;
+    Material surface =
+        build::material(ground ? scene.friction : scene.friction_of_bodies(), scene.restitution);
+    if (ground) surface.friction_rule = CombineRule::Minimum;
+    Collider collider = build::with(shape_of(body.shape, geometries), surface, body.density);
     if (!scene.collide) collider.filter.collides_with = 0;
     return build::add(world, made, collider);
   };

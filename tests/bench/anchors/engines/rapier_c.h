@@ -13,6 +13,7 @@ struct RapierBody {
   float position[3], turn[4];          // [m], quaternion x y z w
   float velocity[3], spin[3];          // [m/s], [rad/s]
   float mass, inertia[3];              // [kg], [kg m^2] principal
+  float force[3];                      // [N] always, at the centre of mass
 };
 
 struct RapierJoint {
@@ -21,7 +22,7 @@ struct RapierJoint {
 };
 
 struct RapierScene {
-  float gravity[3], friction, restitution;
+  float gravity[3], friction, friction_of_bodies, restitution;
   std::int32_t collide, sleeping;
   const RapierBody* bodies;
   std::size_t body_count;

@@ -19,6 +19,7 @@ pub struct Body {
     spin: [f32; 3],
     mass: f32,
     inertia: [f32; 3],
+    force: [f32; 3],
 }
 
 #[repr(C)]
@@ -33,6 +34,7 @@ pub struct Joint {
 pub struct Scene {
     gravity: [f32; 3],
     friction: f32,
+    friction_of_bodies: f32,
     restitution: f32,
     collide: i32,
     sleeping: i32,
@@ -145,12 +147,20 @@ pub unsafe extern "C" fn plumb_rapier_new(scene: *const Scene, threads: usize) -
             builder = builder.additional_mass_properties(mass);
         }
         let handle = physics.bodies.insert(builder);
+        let force = vector(&body.force);
+        if force != Vector::ZERO {
+            physics.bodies[handle].add_force(force, true); // stays
+        }
         if let Some(shape) = shape {
             let mut collider = ColliderBuilder::new(shape)
-                .friction(scene.friction)
+                .friction(scene.friction_of_bodies)
                 .restitution(scene.restitution);
             if body.dynamic != 0 {
                 collider = collider.mass_properties(mass);
+            } else if scene.friction < scene.friction_of_bodies {
+                collider = collider
+                    .friction(scene.friction)
+                    .friction_combine_rule(CoefficientCombineRule::Min);
             }
             if scene.collide == 0 {
                 collider = collider.collision_groups(InteractionGroups::none());
