@@ -1,8 +1,8 @@
 #include "world/plan_losses.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "math/eigen_bridge.h"
 #include "solver/joints/joint_tolerances.h"
@@ -13,8 +13,8 @@ namespace {
 
 std::string number(double x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
+  const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr;
+  return std::string(text, end);
 }
 std::string number(float x) { return number(static_cast<double>(x)); }
 std::string name_of(const Worst& worst) { return "body " + std::to_string(worst.body); }

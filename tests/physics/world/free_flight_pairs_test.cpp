@@ -43,7 +43,7 @@ std::set<std::pair<BodyId, BodyId>> touching(const PhysicsWorld& world) {
 
 TEST(FreeFlightPairs, WhateverOverlapsHasAContact) {
   int overlaps = 0;
-  for (unsigned seed = 0; seed < 6; ++seed) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
     PhysicsWorld world(no_gravity());
     const std::vector<BodyId> bodies = add_swarm(world, seed);
     for (int step = 0; step < 600; ++step) {

@@ -92,22 +92,18 @@ double take_over(Island& island) {
 }
 
 // Where the solve ends early, discs may have left friction with a point that presses no more.
-void pull_into_cones(Island& island) {
+void drop_idle_friction(Island& island) {
   for (IslandContact& c : island.contacts) {
-    double load = 0;
+    bool presses = false;
     for (int i = 0; i < c.count; ++i) {
       IslandPoint& p = c.points[i];
-      p.center = project_cone(c.mu, p.center).g;
-      load += p.center.x;
+      if (p.center.x > 0) {
+        presses = true;
+      } else {
+        p.center = {0, 0, 0};
+      }
     }
-    if (!c.resists_turning) continue;
-    const double spin = c.torsional * load, roll = c.rolling * load;
-    c.turn_center.x = std::clamp(c.turn_center.x, -spin, spin);
-    const double size =
-        std::sqrt(c.turn_center.y * c.turn_center.y + c.turn_center.z * c.turn_center.z);
-    if (!(size > roll)) continue;
-    c.turn_center.y *= roll / size;
-    c.turn_center.z *= roll / size;
+    if (!presses) c.turn_center = {0, 0, 0};
   }
 }
 
@@ -208,7 +204,7 @@ void solve(Island& island) {
         std::min(tolerance::kStepLength, tolerance::kStepGrowth * island.step_length);
     island.has_factor = false;
   }
-  if (!done) pull_into_cones(island);
+  if (!done) drop_idle_friction(island);
   island.fell_back = !found || island.lack > tolerance::kNotConverged * island.speed;
   if (island.solves_positions && impulses_cancel(island)) {
     island.v = island.v_rest;  // the overlap waits until the body is free
