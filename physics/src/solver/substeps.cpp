@@ -155,33 +155,30 @@ bool rub(WorldState& world, ContactRow<Real>& row, bool first_pass, RowVelocitie
              : rub_within(FacetCone{cone}, world, row, first_pass, u, load, sliding);
 }
 
-void solve_row(WorldState& world, ContactRow<Real>& row, Real inverse_h, bool first_pass) {
-  if (row.skip) return;
+// What a pass over a row does to it and its bodies.
+struct RowPass {
+  Real load = 0, sliding = 0;  // [N s] normal impulse, and the part of it that slides
+  bool turns = false;          // although it resists
+};
+RowPass pass_over_row(WorldState& world, ContactRow<Real>& row, Real inverse_h, bool soft,
+                      bool first_pass) {
+  RowPass pass;
   const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
   RowVelocities<Real> u = read_velocities(world, row);
-  Real load = 0, sliding = 0;
   RowCharge charged(world, row, world.diagnostics.ledger);
-  solve_normal(row, change, inverse_h, true, u);
+  solve_normal(row, change, inverse_h, soft, u);
   charged.as(&EnergyLedger::normal, u);
-  rub(world, row, first_pass, u, load, sliding);
+  pass.turns = rub(world, row, first_pass, u, pass.load, pass.sliding);
   charged.as(&EnergyLedger::friction, u);
   write_velocities(world, row, u);
+  return pass;
 }
 
 void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
-  if (!row.skip) {
-    const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
-    RowVelocities<Real> u = read_velocities(world, row);
-    Real load = 0, sliding = 0;
-    RowCharge charged(world, row, world.diagnostics.ledger);
-    solve_normal(row, change, inverse_h, false, u);
-    charged.as(&EnergyLedger::normal, u);
-    const bool turns = rub(world, row, false, u, load, sliding);
-    charged.as(&EnergyLedger::friction, u);
-    if (turns) sliding = load;  // its speeds ramp as those of what slides
-    write_velocities(world, row, u);
-    note_load(world, row, load, sliding);
-  }
+  if (row.skip) return;
+  const RowPass pass = pass_over_row(world, row, inverse_h, false, false);
+  // The speeds of what turns ramp as those of what slides.
+  note_load(world, row, pass.load, pass.turns ? pass.load : pass.sliding);
 }
 
 void store_impulses(WorldState& world) {
@@ -343,7 +340,7 @@ void run_substeps(WorldState& world) {
       if (joints) solve_joints(world);
       if (ledger) charge(world, &EnergyLedger::joints);
       for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
-        solve_row(world, row, pass.inverse_h, first);
+        if (!row.skip) pass_over_row(world, row, pass.inverse_h, true, first);
       });
     }
     if (newton) solve_newton_islands(world);
