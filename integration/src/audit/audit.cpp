@@ -20,7 +20,7 @@ struct BodySample {
   double size = 1;            // [m] radius of gyration of the whole body
   double weight_turn = 0;     // [kg m^2/s] what its weight may do in a step
   double rest_speed = 0;      // [m/s]
-  bool touches = false;
+  bool held = false;
 };
 using Sample = std::vector<BodySample>;
 
@@ -41,9 +41,10 @@ Sample sample_of(const PhysicsWorld& world, double dt) {
     if (gyration > 0) body.size = gyration;
     const double g = world.settings().gravity.cast<double>().norm();
     body.weight_turn = mass.mass * g * body.size * dt;
-    body.touches = std::any_of(contacts.begin(), contacts.end(), [&](const ContactState& contact) {
+    body.held = std::any_of(contacts.begin(), contacts.end(), [&](const ContactState& contact) {
       return contact.body_a == state.id || contact.body_b == state.id;
     });
+    body.held = body.held || !world.joints_of(state.id).empty();
     // Below this a body counts as resting (physics/src/world/tolerances.h).
     body.rest_speed = std::max(0.014 * std::sqrt(g * body.size), 1e-3 * body.size);
   }
@@ -62,9 +63,9 @@ double motion_between(const BodySample& a, const BodySample& b, double dt) {
   return std::max({turned, moved, v, w});
 }
 
-// Of the angular momentum; what touches something has that of its weight for company.
+// Of the angular momentum; what a contact or a joint holds has that of its weight for company.
 double momentum_between(const BodySample& a, const BodySample& b) {
-  const double whole = a.L.norm() + (a.touches ? a.weight_turn : 0);
+  const double whole = a.L.norm() + (a.held ? a.weight_turn : 0);
   return whole > 0 ? (b.L - a.L).norm() / whole : 0;
 }
 

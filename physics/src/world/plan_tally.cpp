@@ -19,23 +19,26 @@ namespace {
 constexpr Real kUsualStep = Real(1.0 / 60);
 
 // The gyroscopic term is negligible where it turns a body's momentum, seen from the body, by less
-// than this in a step [-], which is little more than rounding does in single precision. What
-// touches something has the momentum that its weight brings about in a step for company.
+// than this in a step [-], which is little more than rounding does in single precision. What a
+// contact or a joint holds has the momentum that its weight brings about in a step for company.
 constexpr Real kSteadyTurn = Real(1e-6);
 
 // What overlaps by more than this part of a slop [-] is pushed out by enough to be rubbed.
 constexpr Real kPushedOut = Real(0.1);
 
-bool turns_steadily(const WorldState& world, const BodyInfo& info, bool touches, Real dt,
+bool turns_steadily(const WorldState& world, const BodyInfo& info, bool held, Real dt,
                     Real gyroscopic_torque) {
   const BodyMass& m = world.bodies.mass[info.dense];
   const Real g = static_cast<Real>(world.settings.gravity.norm()) * std::abs(m.gravity_scale);
-  const Real company = touches ? m.mass * g * info.radius * dt : Real(0);
+  const Real company = held ? m.mass * g * info.radius * dt : Real(0);
   return gyroscopic_torque * dt <=
          kSteadyTurn * (length(world.bodies.momentum[info.dense].L) + company);
 }
 
-void tally_turning(const WorldState& world, std::uint32_t slot, bool touches, Real dt,
+// What holds a body.
+constexpr std::uint8_t kTouches = 1, kJointed = 2;
+
+void tally_turning(const WorldState& world, std::uint32_t slot, std::uint8_t held, Real dt,
                    BodyTally& t) {
   const BodyInfo& info = world.bodies.info[slot];
   const BodyMass& m = world.bodies.mass[info.dense];
@@ -44,7 +47,7 @@ void tally_turning(const WorldState& world, std::uint32_t slot, bool touches, Re
     return;
   }
   const Vec w = world.bodies.velocity[info.dense].w, L = world.bodies.momentum[info.dense].L;
-  if (touches) {
+  if ((held & kTouches) != 0) {
     const Real turn = dt * visible_turning(m, world.bodies.pose[info.dense].q, w);
     if (turn > tolerance::kFastTurn) ++t.fast;
     t.turn.note(slot, turn);
@@ -54,7 +57,7 @@ void tally_turning(const WorldState& world, std::uint32_t slot, bool touches, Re
     return;
   }
   const Real torque = length(cross(w, L));
-  if (turns_steadily(world, info, touches, dt, torque)) {
+  if (turns_steadily(world, info, held != 0, dt, torque)) {
     ++t.steady;
     return;
   }
@@ -62,7 +65,7 @@ void tally_turning(const WorldState& world, std::uint32_t slot, bool touches, Re
   t.tilt.note(slot, torque / length(L));
 }
 
-void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& touching, Real dt,
+void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& held, Real dt,
                   BodyTally& t) {
   const BodyStore& bodies = world.bodies;
   for (std::uint32_t slot = 0; slot < bodies.info.size(); ++slot) {
@@ -86,7 +89,7 @@ void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& touc
     if (m.gravity_scale == Real(0)) ++t.weightless;
     if (m.angular_locks != 0 || info.locks.linear_x || info.locks.linear_y || info.locks.linear_z)
       ++t.locked;
-    tally_turning(world, slot, touching[slot] != 0, dt, t);
+    tally_turning(world, slot, held[slot], dt, t);
   }
 }
 
@@ -113,8 +116,7 @@ void tally_contacts(const WorldState& world, const Pair& pair, Real dt, PairTall
   t.resistance = std::max(t.resistance, std::max(pair.rolling, pair.torsional) * push);
 }
 
-void tally_pairs(const WorldState& world, std::vector<std::uint8_t>& touching, Real dt,
-                 PairTally& t) {
+void tally_pairs(const WorldState& world, std::vector<std::uint8_t>& held, Real dt, PairTally& t) {
   const bool forced = world.settings.forced != PlanChoices{};
   for (const Pair& stored : world.pairs) {
     if (stored.sensor) continue;
@@ -130,12 +132,12 @@ void tally_pairs(const WorldState& world, std::vector<std::uint8_t>& touching, R
     if (dt * length(v) > tolerance::kSweptFraction * thickness) ++t.swept;
     if (pair.contact_count == 0) continue;
     ++t.touching;
-    touching[pair.body_a] = touching[pair.body_b] = 1;
+    for (const std::uint32_t body : {pair.body_a, pair.body_b}) held[body] |= kTouches;
     tally_contacts(world, pair, dt, t);
   }
 }
 
-void tally_joints(const WorldState& world, JointTally& t) {
+void tally_joints(const WorldState& world, std::vector<std::uint8_t>& held_at_all, JointTally& t) {
   if (world.joints.empty()) return;
   std::vector<std::uint8_t> held(world.bodies.info.size(), 0);  // by how many joints, up to 2
   const auto for_awake = [&](std::uint32_t joint, auto&& task) {
@@ -148,6 +150,7 @@ void tally_joints(const WorldState& world, JointTally& t) {
     bool any = false;
     for_awake(joint, [&](std::uint32_t body) {
       any = true;
+      held_at_all[body] |= kJointed;
       if (held[body] < 2) ++held[body];
     });
     if (any) ++t.joints;
@@ -168,10 +171,10 @@ void tally_joints(const WorldState& world, JointTally& t) {
 PlanTally tally_plan(const WorldState& world) {
   PlanTally t;
   t.dt = world.dt > Real(0) ? world.dt : kUsualStep;
-  std::vector<std::uint8_t> touching(world.bodies.info.size(), 0);  // per slot
-  tally_pairs(world, touching, t.dt, t.pair);
-  tally_bodies(world, touching, t.dt, t.body);
-  tally_joints(world, t.joint);
+  std::vector<std::uint8_t> held(world.bodies.info.size(), 0);  // per slot
+  tally_pairs(world, held, t.dt, t.pair);
+  tally_joints(world, held, t.joint);
+  tally_bodies(world, held, t.dt, t.body);
   if (solver_of(world.settings) == ContactSolver::Auto ||
       world.settings.contact_solver == ContactSolver::Auto) {
     t.calls = world.newton_calls;
