@@ -121,7 +121,7 @@ struct WorldSettings {
 
 struct SettingsChoice {
   Status status;
-  WorldSettings settings;  // the defaults, with substeps as measured
+  WorldSettings settings;  // the defaults, with substeps and joint order as measured
   double dt = 0;           // [s] to call step() with
   double error = 0;        // [-] measured with them: the worst case of the kind
   double cost = 0;         // [s] measured for a body and a simulated second, on the machine below
