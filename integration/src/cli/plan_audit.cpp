@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "accuracy/files.h"
 #include "audit/audit.h"
 #include "cli/commands.h"
 #include "cli/output_path.h"
@@ -12,7 +13,7 @@
 namespace plumb::cli {
 namespace {
 
-constexpr std::uint32_t kDrawnScenes = 27;  // each of the nine parts comes first three times
+constexpr std::uint32_t kDrawnScenes = 36;  // each of the nine parts comes first four times
 constexpr double kStep = 1.0 / 60;          // [s] of drawn scenes
 constexpr double kPercent = 100;
 
@@ -27,13 +28,14 @@ void add(const audit::Counts& one, audit::Counts& all) {
   }
 }
 
-void write_rows(std::FILE* file, const std::string& scene, const audit::Counts& counts) {
+void add_rows(std::string& out, const std::string& scene, const audit::Counts& counts) {
   for (std::size_t k = 0; k < counts.size(); ++k) {
     const audit::Count& c = counts[k];
     if (c.steps == 0) continue;
-    std::fprintf(file, "%s,%s,%u,%u,%u,%u,%g,%g\n", scene.c_str(),
-                 name_of(static_cast<PlanItem>(k)), c.steps, c.chosen, c.needless, c.missed,
-                 c.off_change, c.on_change);
+    char numbers[160];
+    std::snprintf(numbers, sizeof numbers, "%u,%u,%u,%u,%g,%g\n", c.steps, c.chosen, c.needless,
+                  c.missed, c.off_change, c.on_change);
+    out += scene + "," + name_of(static_cast<PlanItem>(k)) + "," + numbers;
   }
 }
 
@@ -101,16 +103,10 @@ int audit_plans(const std::vector<std::string>& scenes, const std::string& csv) 
       chosen > 0 ? kPercent * static_cast<double>(needless) / static_cast<double>(chosen) : 0.0,
       static_cast<unsigned long long>(chosen));
   if (csv.empty()) return missed == 0 ? kOk : kFailed;
-  std::FILE* file = std::fopen(csv.c_str(), "w");
-  if (file == nullptr) {
-    complain("cannot write " + csv);
-    return kFailed;
-  }
-  std::fprintf(file, "scene,item,steps,chosen,needless,missed,off_change,on_change\n");
-  for (const auto& [name, counts] : rows) write_rows(file, name, counts);
-  const bool written = std::ferror(file) == 0;
-  if (std::fclose(file) != 0 || !written) {
-    complain("cannot write " + csv + "; is the disk full?");
+  std::string text = "scene,item,steps,chosen,needless,missed,off_change,on_change\n";
+  for (const auto& [name, counts] : rows) add_rows(text, name, counts);
+  if (const std::string wrong = accuracy::write_whole(csv, text); !wrong.empty()) {
+    complain(wrong);
     return kFailed;
   }
   return missed == 0 ? kOk : kFailed;

@@ -37,9 +37,9 @@ struct RecorderOptions {
   int rows_per_chunk = 30;        // [steps] >= 1 kept back and written as one piece
   double frames_per_second = 60;  // [1/s] > 0, the viewer's playback
 
-  bool visuals = true;            // shapes, joints and labels in 3D
-  bool contacts = true;           // contact points and normals, each arrow scaled by its impulse
-  bool body_states = true;        // exact states of all moving bodies, for a diff by name
+  bool visuals = true;      // shapes, joints and labels in 3D
+  bool contacts = true;     // contact points and normals, each arrow scaled by its impulse
+  bool body_states = true;  // exact states of all moving bodies, for a diff by name
   // Energies, counts, stage timings (WorldSettings::profiling), ledger (StepDiagnostics::ledger).
   bool plots = true;
   bool text_log = true;           // plan and events
