@@ -69,8 +69,9 @@ struct BodyInfo {  // what states are read by comes first
   std::uint32_t island = kNone;  // sleeping island, or kNone
   Real rest_time = 0;            // [s] at rest without a break
   // Of the choice of the accurate solver (newton/choose.h), in steps: in a row in which it has
-  // called; for which it stays with it; for which its calls are not heard.
-  std::uint8_t newton_calls = 0, newton_steps = 0, newton_pause = 0;
+  // called; for which it stays with it; for which its calls are not heard; in a row in which its
+  // island took more than its share.
+  std::uint8_t newton_calls = 0, newton_steps = 0, newton_pause = 0, newton_overruns = 0;
   Real size = 0;              // [m] smallest thickness over its colliders
   Real radius = 0;            // [m] farthest point of its colliders from the centre of mass
   Real turning_radius = 0;    // [m] farthest one that a turn carries along (no ball's)

@@ -58,6 +58,7 @@ void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentu
   t("newton_calls", i.newton_calls);
   t("newton_steps", i.newton_steps);
   t("newton_pause", i.newton_pause);
+  t("newton_overruns", i.newton_overruns);
   t("position", x.x.x, x.x.y, x.x.z);
   t("orientation", x.q.x, x.q.y, x.q.z, x.q.w);
   t("velocity", v.v.x, v.v.y, v.v.z);

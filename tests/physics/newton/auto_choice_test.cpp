@@ -15,7 +15,8 @@ using namespace scenes;
 using Eigen::Vector3d;
 
 TEST(AutoChoice, TowersAndMassRatiosStandWithTheDefaults) {
-  for (const Column& column : {Column{30}, Column{50}, Column{10, 4}, Column{2, 1e4}}) {
+  for (const Column& column :
+       {Column{30}, Column{50, 1, 0.01}, Column{100}, Column{10, 4}, Column{2, 1e4}}) {
     PhysicsWorld world;
     const Built built = build_column(world, column);
     const BodyId top = built.bodies.back();

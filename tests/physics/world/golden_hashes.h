@@ -17,7 +17,7 @@ struct GoldenHash {
 inline constexpr GoldenHash kGoldenHashes[] = {
     {0x7dd031f5cd2ec1a1, 0x8807dc9b89bde38e, 0xbbac923318561296},  // stack
     {0xae3655ca8801d5b8, 0x92a121380dcacb50, 0xdbca8403e8d04df0},  // pyramid
-    {0x3c519f63b54cbe1, 0x5f3f41d69e23a25e, 0x9b3f9cac19bddca6},   // pile
+    {0x105fb9444e2f358b, 0xd6cbbe37173658e3, 0x6188fcab1fbef8be},  // pile
     {0xcaccecf8b890450a, 0xf1883ca5fcc0de4, 0xa648dd5562ad2f83},   // cluster
     {0xbdb94e3142014d0b, 0x2c5a2db840264a47, 0x8241986aad681c6a},  // bouncing
     {0x6e3d40aaedb1cb6d, 0xf471cd5d290ba38d, 0x9b0a791994f93acc},  // bridge

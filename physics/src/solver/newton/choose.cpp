@@ -74,9 +74,22 @@ void hear_calls(WorldState& world, const Call* of_row) {
 void hear_no_more(WorldState& world, const Island& island) {
   for (const IslandBody& body : island.bodies) {
     BodyInfo& info = world.bodies.info[world.bodies.slot_of[body.dense]];
-    info.newton_calls = info.newton_steps = 0;
+    info.newton_calls = info.newton_steps = info.newton_overruns = 0;
     info.newton_pause = tolerance::kStepsOfPause;
   }
+}
+
+void note_effort(WorldState& world, const Island& island) {
+  const bool overrun = island.total_factorizations > island.budget;
+  const bool is_tree = island.matrix.products() <= tolerance::kTreeProducts * island.bodies.size();
+  const std::uint8_t most = is_tree ? tolerance::kMostOverruns : 1;
+  std::uint8_t overruns = 0;
+  for (const IslandBody& body : island.bodies) {
+    BodyInfo& info = world.bodies.info[world.bodies.slot_of[body.dense]];
+    info.newton_overruns = overrun ? static_cast<std::uint8_t>(info.newton_overruns + 1) : 0;
+    overruns = std::max(overruns, info.newton_overruns);
+  }
+  if (overruns >= most) hear_no_more(world, island);
 }
 
 bool is_called(WorldState& world) {

@@ -47,6 +47,8 @@ void hear_calls(WorldState& world, const Call* of_row);
 
 // The island's bodies go back to the fast solver and are not heard for a while.
 void hear_no_more(WorldState& world, const Island& island);
+// After the last substep: what took more than its share too often is heard no more.
+void note_effort(WorldState& world, const Island& island);
 
 // Whether any body that is awake is with the accurate solver.
 bool is_called(WorldState& world);

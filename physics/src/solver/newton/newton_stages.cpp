@@ -49,7 +49,7 @@ void keep_as_warm(Island& island) {
   for (newton::ScalarLaw& law : island.laws) law.warm = law.center;
 }
 
-void note_effort(Island& island) {
+void count_effort(Island& island) {
   island.total_factorizations += static_cast<std::uint32_t>(island.factorizations);
   if (island.fell_back) ++island.fallbacks;
   island.worst_lack = std::max(island.worst_lack, island.lack);
@@ -62,12 +62,12 @@ void solve_island(WorldState& world, Island& island) {
   newton::solve(island);
   island.v_rest = island.v;
   newton::store_island(world, island);
-  note_effort(island);
+  count_effort(island);
   if (overlaps(island) && island.total_factorizations < island.budget) {
     island.solves_positions = true;
     keep_as_warm(island);
     newton::solve(island);
-    note_effort(island);
+    count_effort(island);
   }
   write_velocities(world, island);
 }
@@ -123,7 +123,7 @@ void report_newton_islands(WorldState& world) {
     report.newton_factorizations += island.total_factorizations;
     report.newton_fallbacks += island.fallbacks;
     report.newton_residual = std::max(report.newton_residual, island.worst_lack);
-    if (chosen && island.total_factorizations > island.budget) newton::hear_no_more(world, island);
+    if (chosen) newton::note_effort(world, island);
   }
 }
 

@@ -55,12 +55,15 @@ inline constexpr Real kMostOverlap = Real(10);
 inline constexpr unsigned char kStepsToBeLoad = 8;
 inline constexpr unsigned char kStepsToStay = 60;
 // What it may cost then, in products of 6x6 blocks (0.4 us each with all that goes with them): in
-// one factorization, a column of 200 bodies; in one step of the world, about 24 ms. An island
-// that is too large or has taken more is not heard for so many steps [-]; larger ones are not even
-// looked at [bodies].
+// one factorization, a column of 200 bodies; in one step of the world, about 24 ms. An island that
+// is larger, or has taken more, is not heard for so many steps [-]; columns, chains and trees (so
+// many products a body) only where that comes so many steps in a row: they settle [-]. Larger ones
+// are not even looked at [bodies].
 inline constexpr std::size_t kMostProducts = 600;
 inline constexpr std::size_t kMostWork = 60'000;
 inline constexpr unsigned char kStepsOfPause = 240;
+inline constexpr std::size_t kTreeProducts = 3;
+inline constexpr unsigned char kMostOverruns = 20;
 inline constexpr std::size_t kMostBodies = 300;
 
 // Blocks of 288 bytes in one island's factor [-]: 144 MB. Larger islands stay with the fast solver.
