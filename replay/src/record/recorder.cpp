@@ -232,11 +232,13 @@ void Recorder::Run::copy(const StepView& view, detail::Frame& frame) {
   world.save(frame.snapshot);
 }
 
-// Words are made only for what changed.
+// To ask for the plan costs a look at every body and pair: more than all the rest of a frame, if
+// it were done at every step. Words are made only for what changed.
 void Recorder::Run::copy_plan_changes(const PhysicsWorld& world, detail::Frame& frame) {
+  frame.plan.clear();
+  if (world.step_count() % RecorderOptions::kPlanEvery != 0) return;
   const std::uint64_t planned = world.planned_items(), changed = planned ^ planned_;
   planned_ = planned;
-  frame.plan.clear();
   if (changed == 0) return;
   for (PlanDecision& decision : world.plan().decisions)
     if ((changed & bit_of(decision.item)) != 0) frame.plan.push_back(std::move(decision));

@@ -42,7 +42,9 @@ struct RecorderOptions {
   bool body_states = true;  // exact states of all moving bodies, for a diff by name
   // Energies, counts, stage timings (WorldSettings::profiling), ledger (StepDiagnostics::ledger).
   bool plots = true;
-  bool text_log = true;           // plan and events
+  bool text_log = true;  // plan and events
+  // [steps] between two looks at the plan: what changes is told at the next one.
+  static constexpr std::uint64_t kPlanEvery = 10;
   int event_lines_per_step = 32;  // [-] >= 0; the rest is counted, not listed
 };
 
