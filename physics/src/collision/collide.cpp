@@ -130,7 +130,7 @@ bool is_placed(NumVec p, NumRotation a, NumRotation b) {
 }  // namespace
 
 bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
-             const Transform& xb, Real margin, Manifold& out, SeparatingFace* apart) {
+             const Transform& xb, Real margin, Manifold& out, PairMemory* memory) {
   out.count = 0;
   if (has_parts(a.type) || has_parts(b.type))
     return collide_deepest_part(a, xa, b, xb, margin, out);
@@ -150,12 +150,23 @@ bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape&
   const Num added = radii.first + radii.second;
   const Placed placed_first{first, {0, 0, 0}, q_first}, placed_second{second, offset, q_second};
   const Num reach = static_cast<Num>(margin) + added;
-  if (apart != nullptr &&
-      keeps_apart(swap ? apart->swapped() : *apart, placed_first, placed_second, reach))
-    return false;
   Contacts contacts;
+  const auto remember = [&](Num gap_of_cores) {
+    if (memory == nullptr) return;
+    memory->axis = swap ? contacts.axis.swapped() : contacts.axis;
+    const auto gap = static_cast<Real>(gap_of_cores - added);
+    memory->gap = gap > Real(0) ? gap : Real(0);
+  };
+  if (memory != nullptr) {
+    contacts.axis = swap ? memory->axis.swapped() : memory->axis;
+    const Num gap = gap_along(contacts.axis, placed_first, placed_second);
+    if (gap > reach) {
+      remember(gap);
+      return false;
+    }
+  }
   routine(placed_first, placed_second, reach, contacts);
-  if (apart != nullptr) *apart = swap ? contacts.apart.swapped() : contacts.apart;
+  remember(contacts.count == 0 ? contacts.gap : added);
   if (contacts.count == 0) return false;
   if (added > Num(0)) grow(placed_first, placed_second, radii, contacts);
 

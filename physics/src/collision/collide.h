@@ -11,10 +11,10 @@ namespace plumb::inline PLUMB_ABI::detail {
 // common reference point near A (so that single precision suffices anywhere in the world).
 // Returns whether there is any point. Symmetric: swapping the shapes negates the normal.
 // HalfSpace against HalfSpace never collides.
-// `apart`, where given, is looked at first and left as what the next call should look at first; it
-// saves time and changes no result (see separating_face.h).
+// `memory`, where given, is looked at first and left as what was found now; it saves time and
+// changes no result (see separating_face.h).
 bool collide(const CollisionShape& a, const Transform& xa, const CollisionShape& b,
-             const Transform& xb, Real margin, Manifold& out, SeparatingFace* apart = nullptr);
+             const Transform& xb, Real margin, Manifold& out, PairMemory* memory = nullptr);
 
 // Closest points of two shapes that do not overlap; distance 0 where they do.
 struct Proximity {

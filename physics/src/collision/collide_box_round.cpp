@@ -7,8 +7,6 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-constexpr NumMatrix kIdentity{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
 NumVec clamp_to_box(NumVec point, NumVec half) { return max_each(-half, min_each(half, point)); }
 
 // Parameter at which an axis is closest to a box. Half the derivative of the squared distance is
@@ -53,7 +51,7 @@ void collide_box_sphere(const Placed& a, const Placed& b, Num margin, Contacts& 
   Num distance;
   if (d.x != Num(0) || d.y != Num(0) || d.z != Num(0)) {
     distance = length(d);
-    if (!(distance - radius <= margin)) return;
+    if (out.parted(distance - radius, margin)) return;
     n = normalized_or(d, {0, 1, 0});
   } else {
     // Inside: the nearest face pushes out.
@@ -65,7 +63,7 @@ void collide_box_sphere(const Placed& a, const Placed& b, Num margin, Contacts& 
     set_component(n, axis, component(centre, axis) < Num(0) ? Num(-1) : Num(1));
   }
   const Num separation = distance - radius;
-  if (!(separation <= margin)) return;
+  if (out.parted(separation, margin)) return;
   out.normal = rotate(a.q, n);
   out.add(rotate(a.q, centre - (radius + Num(0.5) * separation) * n), separation,
           pair_name(face_name(0), face_name(0)));
@@ -80,11 +78,11 @@ void collide_box_capsule(const Placed& a, const Placed& b, Num margin, Contacts&
   const Num t = closest_axis_parameter(axis, half);
   const NumVec on_axis = point_at(axis, t), d = on_axis - clamp_to_box(on_axis, half);
   const Num distance = length(d);
-  if (!(distance - radius <= margin)) return;
+  if (out.parted(distance - radius, margin)) return;
   const Num thickness = std::min({half.x, half.y, half.z, radius});
   AxisProximity proximity{normalized_or(d, {0, 1, 0}), distance, on_axis};
   if (!(distance > kTouching * (length(half) + half_axis.y))) {
-    proximity = deepest_of_axis(PlacedPolyhedron(a.shape, kIdentity, {0, 0, 0}), axis, thickness);
+    proximity = deepest_of_axis(PlacedPolyhedron(a.shape), axis, thickness);
   }
   const BoxView box{{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, half};
   FacePolygon face;

@@ -128,14 +128,14 @@ void collide_boxes(const Placed& a, const Placed& b, Num margin, Contacts& out) 
   const NumMatrix R = to_matrix(to_a * b.q);
   const BoxPair pair = make_pair(a, b, t, R);
   const Best face_a = best_face_of_a(pair);
-  if (!(face_a.separation <= margin)) return;
+  if (out.parted(face_a.separation, margin)) return;
   const Best face_b = best_face_of_b(pair);
-  if (!(face_b.separation <= margin)) return;
+  if (out.parted(face_b.separation, margin)) return;
   const NumVec half_a = to_num(a.shape.half), half_b = to_num(b.shape.half);
   const Num thickness = std::min({half_a.x, half_a.y, half_a.z, half_b.x, half_b.y, half_b.z});
   const Num best_face = std::max(face_a.separation, face_b.separation);
   const Best edges = best_edges(pair, best_face);
-  if (!(edges.separation <= margin)) return;
+  if (out.parted(edges.separation, margin)) return;
 
   const BoxView box_a{{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, half_a};
   const BoxView box_b{t,

@@ -76,7 +76,7 @@ void collide_curved(const Placed& a, const Placed& b, Num margin, Contacts& out)
 
 void collide_curved_sphere(const Placed& a, const Placed& b, Num margin, Contacts& out) {
   const CoreDistance d = distance_to_core(a.shape, rotate(conjugate(a.q), b.p));
-  if (!(d.distance <= margin)) return;
+  if (out.parted(d.distance, margin)) return;
   out.normal = rotate(a.q, d.outward);
   out.add(b.p - Num(0.5) * d.distance * out.normal, d.distance,
           pair_name(face_name(0), face_name(0)));
@@ -91,7 +91,7 @@ void collide_half_space_curved(const Placed& a, const Placed& b, Num margin, Con
   plane.out = plane.normal = n;
   plane.offset = static_cast<Num>(a.shape.offset);
   const Num room = dot(n, core.support(-n)) - plane.offset;
-  if (!(room <= margin)) return;
+  if (out.parted(room, margin)) return;
   FacePolygon unused;
   core.feature_facing(-n, unused, feature);
   ContactCandidates candidates;

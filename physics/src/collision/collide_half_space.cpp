@@ -43,7 +43,7 @@ void collide_half_space_box(const Placed& a, const Placed& b, Num margin, Contac
   const NumVec n_B = rotate(conjugate(b.q), plane.normal);  // plane normal in the box's frame
   const NumVec half = to_num(b.shape.half);
   const Num centre = dot(plane.normal, b.p) - plane.offset;
-  if (!(centre - dot(absolute(n_B), half) <= margin)) return;
+  if (out.parted(centre - dot(absolute(n_B), half), margin)) return;
   // The four corners of the face that looks most into the plane; the deepest is among them.
   const NumVec m = absolute(n_B);
   const int axis = m.x >= m.y ? (m.x >= m.z ? 0 : 2) : (m.y >= m.z ? 1 : 2);
@@ -73,7 +73,7 @@ void collide_half_space_hull(const Placed& a, const Placed& b, Num margin, Conta
     const Num along = dot(to_num(vertices[i]), n_B);
     if (along < depth) depth = along, lowest = i;
   }
-  if (!(centre + depth <= margin)) return;
+  if (out.parted(centre + depth, margin)) return;
 
   // Of the faces at the lowest vertex, the one that looks most into the plane.
   std::size_t face = 0;

@@ -8,8 +8,6 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-constexpr NumMatrix kIdentity{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
 struct FaceDistance {
   int face;
   Num distance;
@@ -39,9 +37,9 @@ GjkResult distance_to_core(const PlacedPolyhedron& hull, const Segment& core) {
 void collide_hull_sphere(const Placed& a, const Placed& b, Num margin, Contacts& out) {
   const NumVec centre = rotate(conjugate(a.q), b.p);
   const Num radius = b.shape.radius;
-  const PlacedPolyhedron hull(a.shape, kIdentity, {0, 0, 0});
+  const PlacedPolyhedron hull(a.shape);
   const FaceDistance face = highest_above(hull, {centre, centre});
-  if (!(face.distance - radius <= margin)) return;
+  if (out.parted(face.distance - radius, margin)) return;
   NumVec n = normalized_or(hull.normal(face.face), {0, 1, 0});
   Num distance = face.distance;
   if (distance > Num(0)) {
@@ -49,7 +47,7 @@ void collide_hull_sphere(const Placed& a, const Placed& b, Num margin, Contacts&
     if (!closest.overlap) n = closest.normal, distance = closest.distance;
   }
   const Num separation = distance - radius;
-  if (!(separation <= margin)) return;
+  if (out.parted(separation, margin)) return;
   out.normal = rotate(a.q, n);
   out.add(rotate(a.q, centre - (radius + Num(0.5) * separation) * n), separation,
           pair_name(face_name(0), face_name(0)));
@@ -60,14 +58,14 @@ void collide_hull_capsule(const Placed& a, const Placed& b, Num margin, Contacts
   const NumVec centre = rotate(to_hull, b.p), reach = rotate(to_hull * b.q, to_num(b.shape.half));
   const Segment axis{centre - reach, centre + reach};
   const Num radius = b.shape.radius;
-  const PlacedPolyhedron hull(a.shape, kIdentity, {0, 0, 0});
+  const PlacedPolyhedron hull(a.shape);
   const FaceDistance highest = highest_above(hull, axis);
-  if (!(highest.distance - radius <= margin)) return;
+  if (out.parted(highest.distance - radius, margin)) return;
   const Num thickness = std::min(hull.inner_radius(), radius);
   const GjkResult closest = distance_to_core(hull, axis);
   AxisProximity proximity{closest.normal, closest.distance, closest.on_b};
   if (closest.overlap) proximity = deepest_of_axis(hull, axis, thickness);
-  if (!(proximity.distance - radius <= margin)) return;
+  if (out.parted(proximity.distance - radius, margin)) return;
   FacePolygon face;
   hull.face(hull.face_facing(proximity.normal), face);
   add_capsule_contacts(face, axis, radius, proximity, thickness, margin, out);

@@ -17,7 +17,7 @@ void add_core_contact(NumVec pa, Num ra, NumVec pb, Num rb, NumVec fallback, Num
                       Contacts& out) {
   const NumVec d = pb - pa;
   const Num distance = length(d), separation = distance - ra - rb;
-  if (!(separation <= margin)) return;
+  if (out.parted(separation, margin)) return;
   out.normal = distance > kTouching * (ra + rb) ? normalized_or(d, fallback) : fallback;
   // Halfway between the surface points pa + ra n and pb - rb n.
   out.add(Num(0.5) * (pa + pb + (ra - rb) * out.normal), separation, kSingle);

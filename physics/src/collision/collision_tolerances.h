@@ -49,6 +49,9 @@ inline constexpr Num kClipBand = 2e-4;
 
 // A point replaces another in the choice of four only if it spans this much more.
 inline constexpr Num kSpanGain = 1.001;
+// The depth at which an axis counts as beaten by none, as a part of where it provably is [-]: far
+// beyond rounding.
+inline constexpr Num kSureShare = 0.9;
 // A face seen at a flatter angle than this cosine along the normal is not laid over another one.
 inline constexpr Num kSteepFace = 0.1;
 // Two capsules give two points if their axes run past one another by less than this part of the sum

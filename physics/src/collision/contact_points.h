@@ -26,11 +26,19 @@ struct ContactPoint {
 struct Contacts {
   NumVec normal;
   int count = 0;
-  SeparatingFace apart;  // where count is 0 and a face is the reason
+  AxisHint axis;  // before: of the last look; after: of this one
+  // [m] Where count is 0: the shapes are at least this far apart, as far as was looked.
+  Num gap = 0;
   ContactPoint points[Manifold::kMaxPoints];
 
   void add(NumVec position, Num separation, std::uint32_t feature) {
     points[count++] = {position, separation, feature};
+  }
+  // Whether a separation [m] seen along some direction is wider than the margin [m]; notes it.
+  bool parted(Num separation, Num margin) {
+    if (separation <= margin) return false;
+    gap = separation;
+    return true;
   }
 };
 

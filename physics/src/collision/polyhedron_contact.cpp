@@ -1,9 +1,7 @@
 #include "collision/polyhedron_contact.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
-namespace {
 
-// Parameters on two lines that are not parallel, unclamped.
 SegmentParameters line_parameters(const Segment& a, const Segment& b) {
   const NumVec da = a.end - a.start, db = b.end - b.start, r = a.start - b.start;
   const NumVec across = cross(da, db);
@@ -11,8 +9,6 @@ SegmentParameters line_parameters(const Segment& a, const Segment& b) {
   if (!(squared > Num(0))) return {Num(0.5), Num(0.5)};
   return {dot(cross(db, r), across) / squared, dot(cross(da, r), across) / squared};
 }
-
-}  // namespace
 
 bool edges_cross(const ContactAxis& axis) {
   const SegmentParameters at = line_parameters(axis.edge_a, axis.edge_b);

@@ -19,6 +19,8 @@ struct ContactAxis {
   FeatureName name_a, name_b;  // only for Edges
 };
 
+// Where two lines that are not parallel come closest: parameters along the segments, unclamped.
+SegmentParameters line_parameters(const Segment& a, const Segment& b);
 // Halfway between the supporting lines of two edges.
 ContactPoint edge_contact(const ContactAxis& axis);
 // Whether the closest points of the two lines lie within both edges (to round-off).

@@ -6,8 +6,8 @@
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// The full search rounds elsewhere. By this much of the shapes' sizes [-] a gap must be wider than
-// the margin, so that both always agree; double precision errs by a hundred thousandth of it.
+// The full search rounds elsewhere. A gap is told smaller by this much of the shapes' sizes [-], so
+// that both always agree; double precision errs by a hundred thousandth of it.
 constexpr Num kGuard = Num(1e-10);
 
 struct Plane {
@@ -49,16 +49,19 @@ Num size_of(const CollisionShape& shape) {
 
 }  // namespace
 
-bool keeps_apart(SeparatingFace face, const Placed& first, const Placed& second, Num margin) {
-  if (!face.is_known() || !is_polyhedron(first.shape) || !is_polyhedron(second.shape)) return false;
-  const Placed& p = face.of_second() ? second : first;
-  const Placed& q = face.of_second() ? first : second;
-  if (face.index() >= face_count(p.shape)) return false;  // the shape was changed
-  const Plane plane = plane_of(p.shape, face.index());
+Num gap_along(AxisHint axis, const Placed& first, const Placed& second) {
+  constexpr Num kUnknown = -std::numeric_limits<Num>::infinity();
+  if (!axis.is_face() || !is_polyhedron(first.shape) || !is_polyhedron(second.shape))
+    return kUnknown;
+  const Placed& p = axis.of_second() ? second : first;
+  const Placed& q = axis.of_second() ? first : second;
+  if (static_cast<std::size_t>(axis.face()) >= face_count(p.shape))
+    return kUnknown;  // the shape was changed
+  const Plane plane = plane_of(p.shape, static_cast<std::size_t>(axis.face()));
   const NumVec n = rotate(p.q, plane.normal);
   const NumVec way = q.p - p.p;
   const Num gap = dot(n, way) - plane.offset + lowest_along(q.shape, rotate(conjugate(q.q), n));
-  return gap > margin + kGuard * (size_of(p.shape) + size_of(q.shape) + length(way));
+  return gap - kGuard * (size_of(p.shape) + size_of(q.shape) + length(way));
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

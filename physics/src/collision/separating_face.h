@@ -7,8 +7,8 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
-// Whether `face`, of the first shape or of the second, has the other shape more than `margin` [m]
-// in front of it; false where there is no such face. The radii of rounded shapes are in the margin.
-bool keeps_apart(SeparatingFace face, const Placed& first, const Placed& second, Num margin);
+// How far in front of a face, of the first core or of the second, the other core begins [m], told
+// smaller by more than rounding could err; minus infinity where the axis is no such face.
+Num gap_along(AxisHint axis, const Placed& first, const Placed& second);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,23 +1,11 @@
 // The contact kernel over blocks of W rows. Included by one file per vector length, each compiled
 // for its own processors, with PLUMB_VECTOR_BITS set.
 //
-// All templates and inline functions live in an inline namespace of their own, so that the linker
-// never takes a copy compiled for a newer processor for everyone. Only names of block_pass.h are
-// shared, and they are plain memory.
+// Only names of block_pass.h are shared (math/wide_abi.h), and they are plain memory.
 #include "solver/block_pass.h"
-
-#define PLUMB_JOIN_(a, b, c) a##b##c
-#define PLUMB_JOIN(a, b, c) PLUMB_JOIN_(a, b, c)
-#if defined(PLUMB_PRECISION_F64)
-#define PLUMB_SHARED_ABI f64
-#elif defined(PLUMB_PRECISION_F32D)
-#define PLUMB_SHARED_ABI f32d
-#else
-#define PLUMB_SHARED_ABI f32
-#endif
-#undef PLUMB_ABI
-#define PLUMB_ABI PLUMB_JOIN(PLUMB_SHARED_ABI, _v, PLUMB_VECTOR_BITS)
-
+// Not before the shared header, not after the others.
+#include "math/wide_abi.h"
+//
 #include "solver/body_kernel.h"
 #include "solver/contact_kernel.h"
 #include "solver/row_responses.h"

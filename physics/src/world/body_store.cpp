@@ -30,6 +30,8 @@ void BodyStore::swap_dense(std::uint32_t i, std::uint32_t j) {
 std::uint32_t BodyStore::create() {
   const std::uint32_t slot = take_slot(info, free_slots);
   dense_of.resize(info.size());
+  travel.resize(info.size());
+  travel[slot] = {};
   dense_of[slot] = info[slot].dense = dense_count();
   push_dense(slot);
   ++alive_count;
@@ -58,6 +60,7 @@ void BodyStore::wake(std::uint32_t slot) {
 
 void BodyStore::rest(std::uint32_t slot) {
   if (!is_awake(slot)) return;
+  travel[slot] = {};
   --awake_end;
   swap_dense(info[slot].dense, awake_end);
 }

@@ -51,6 +51,12 @@ struct BodyForce {          // 32 / 64
   Real angular_damping = 0;
 };
 
+// How far any point of a body's colliders has come since pairs were last looked at, and may come in
+// the next step by its velocity [m]; at least, both. Of what is asleep or static: nothing.
+struct BodyTravel {  // 8 / 16
+  Real moved = 0, coming = 0;
+};
+
 // --- by slot: read when something is built, asked for, or ends -----------------------------------
 
 struct BodyInfo {  // what states are read by comes first
@@ -104,6 +110,7 @@ class BodyStore {
 
   std::vector<BodyInfo> info;
   std::vector<std::uint32_t> dense_of;    // info[slot].dense, close together for the stages' loops
+  std::vector<BodyTravel> travel;         // by slot: pairs know slots
   std::vector<std::uint32_t> free_slots;  // reused last in, first out
   std::uint32_t alive_count = 0;
   bool some_called = false;  // some awake body may have called for the accurate solver

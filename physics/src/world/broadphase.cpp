@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/eigen_bridge.h"
+#include "world/clearance.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -129,6 +130,7 @@ bool leaves_proxy(WorldState& world, std::uint32_t slot) {
 }
 
 void update_proxy(WorldState& world, std::uint32_t slot, bool force) {
+  if (force) forget_travel(world, world.colliders.info[slot].body);
   if (force || leaves_proxy(world, slot)) give_proxy(world, slot);
 }
 
@@ -179,6 +181,7 @@ void refresh_proxies(WorldState& world) {
   stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
   for (const std::uint32_t body : stale) {
     if (body >= bodies.info.size() || !bodies.info[body].alive) continue;
+    forget_travel(world, body);
     for (const std::uint32_t collider : bodies.info[body].colliders)
       update_proxy(world, collider, false);
   }

@@ -1,9 +1,11 @@
 // Finalize: poses, bounds, events, and the quarantine of bodies whose state is not finite.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
+#include "world/clearance.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -32,8 +34,22 @@ bool move_body(WorldState& world, std::uint32_t i) {
   info.acceleration = world.substep[i].acceleration;
   bodies.force[i].force = bodies.force[i].torque = {0, 0, 0};
   if (!is_sound(bodies.velocity[i], next, bodies.momentum[i].L)) return false;
+  const BodyPose before = bodies.pose[i];
   bodies.pose[i] = next;
+  // Free bodies have turned already: by whatever.
+  note_travel(world, i, before,
+              turned_here ? next.q * conjugate(before.q) : Rotation{Real(1), 0, 0, 0});
   return true;
+}
+
+// Takes an awake body out of the awake ones. Another one gets its place, with what the step still
+// has to know of it.
+void rest_in_step(WorldState& world, std::uint32_t body) {
+  const std::uint32_t place = world.bodies.dense_of[body];
+  world.bodies.rest(body);
+  const std::uint32_t last = world.bodies.awake_end;
+  std::swap(world.delta[place], world.delta[last]);
+  std::swap(world.substep[place], world.substep[last]);
 }
 
 void quarantine(WorldState& world, std::uint32_t body) {
@@ -46,7 +62,7 @@ void quarantine(WorldState& world, std::uint32_t body) {
   world.facts.forget();
   world.gathering.quarantined.push_back({{body, info.generation}});
   ++world.report.quarantined;
-  world.bodies.rest(body);
+  rest_in_step(world, body);
 }
 
 // Boxes of the colliders of the bodies that moved. Who leaves its box is found by all threads; the
@@ -74,7 +90,7 @@ void rest_standing_kinematic_bodies(WorldState& world) {
     const BodyVelocity& velocity = bodies.velocity[bodies.dense_of[body]];
     if (bodies.info[body].type == MotionType::Kinematic && length_squared(velocity.v) == Real(0) &&
         length_squared(velocity.w) == Real(0))
-      bodies.rest(body);
+      rest_in_step(world, body);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "collision/collide_parts.h"
 #include "world/body_sweep.h"
+#include "world/clearance.h"
 #include "world/forced.h"
 #include "world/inner_edges.h"
 #include "world/one_way.h"
@@ -70,12 +71,11 @@ Real reach_of(const WorldState& world, const Pair& pair) {
   const BodyVelocity& vb = world.bodies.velocity[b.dense];
   const Real speed = length(vb.v - va.v) + length(va.w) * a.radius + length(vb.w) * b.radius;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
-  const Real g = static_cast<Real>(world.settings.gravity.norm());
   // Surfaces are not followed after the step: they are seen coming from as far as it takes.
   const bool surface = is_surface(world.colliders.info[pair.collider_a()].shape.type) ||
                        is_surface(world.colliders.info[pair.collider_b()].shape.type);
   const Real near = surface ? kUnbounded : tolerance::kSweptFraction * thickness;
-  return std::min(world.dt * speed, near) + world.dt * world.dt * g;
+  return std::min(world.dt * speed, near) + world.falls_in_a_step;
 }
 
 // How far along the relative path of the step [0, 1] two shapes meet, without rotation; negative if
@@ -195,14 +195,16 @@ bool boxes_have_parted(const WorldState& world, std::uint32_t slot_a, std::uint3
 
 // Appends the contacts of one pair to `out`.
 void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& out) {
-  const Pair& pair = world.pairs[index];
+  Pair& pair = world.pairs[index];
   PairFindings& found = world.findings[index];
-  found = {.first = static_cast<std::uint32_t>(out.size()), .apart = pair.apart};
   const BodyStore& bodies = world.bodies;
   const std::uint32_t slot_a = pair.collider_a(), slot_b = pair.collider_b();
   const bool some_awake = bodies.is_awake(pair.body_a) || bodies.is_awake(pair.body_b);
-  const bool meet = some_awake && overlaps(world.reach[slot_a], world.reach[slot_b]);
+  const bool clear = stays_clear(world, pair) && !pair.touching && !pair.one_way;
+  found = {.first = static_cast<std::uint32_t>(out.size()), .memory = pair.memory};
+  const bool meet = some_awake && !clear && overlaps(world.reach[slot_a], world.reach[slot_b]);
   if (!meet) {
+    if (!clear) found.memory.gap = gap_of(world.reach[slot_a], world.reach[slot_b]);
     // A sensor that came to rest goes on seeing what sleeps in it.
     found.overlaps = pair.sensor && pair.touching && !some_awake;
     found.gone = boxes_have_parted(world, slot_a, slot_b) || (!some_awake && !found.overlaps);
@@ -242,7 +244,7 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
       collide(a.shape, xa, b.shape, moved, margin, contact.manifold)) {
     set_back(pair, advance, contact);
   } else {
-    collide(a.shape, xa, b.shape, xb, margin, contact.manifold, &found.apart);
+    collide(a.shape, xa, b.shape, xb, margin, contact.manifold, &found.memory);
   }
   if (contact.manifold.count == 0) {
     out.pop_back();
@@ -335,7 +337,7 @@ void take_findings(WorldState& world) {
     pair.contact_count = found.count;
     pair.touching = found.count > 0 || found.overlaps;
     pair.passage = found.passage;
-    pair.apart = found.apart;
+    pair.memory = found.memory;
     for (Contact& contact : contacts_of(pair, to)) contact.pair = remaining;
     ++remaining;
     return false;
@@ -409,6 +411,7 @@ void collide_pairs(WorldState& world) {
   take_findings(world);
   note_paired(world);
   drop_hidden_contacts(world);
+  settle_displaced(world);
   report_contacts(world);
   spread_depth(world);
 }

@@ -31,16 +31,16 @@ struct Pair {                            // 64 bytes in f32
   std::uint32_t first_contact = 0;       // where its contacts lie, in order of their part
   std::uint32_t contact_count = 0;
   std::uint32_t began = 0;  // step in which the touch began, low 32 bits
-  bool sensor = false;
-  bool touching = false;       // has contacts (sensor: overlaps)
-  bool was_touching = false;   // after the previous step
-  bool relative_to_b = false;  // positions of its contacts are seen from B's centre, else from A's
-  bool driven = false;         // the surface of one of them runs
-  bool one_way = false;        // one of them is solid from one side only
-  bool grained = false;        // one of them has less friction along a grain
+  bool sensor : 1 = false;
+  bool relative_to_b : 1 = false;  // positions of its contacts are seen from B's centre, else A's
+  bool driven : 1 = false;         // the surface of one of them runs
+  bool one_way : 1 = false;        // one of them is solid from one side only
+  bool grained : 1 = false;        // one of them has less friction along a grain
+  bool touching = false;           // has contacts (sensor: overlaps)
+  bool was_touching = false;       // after the previous step
   Passage passage = Passage::Apart;
-  SeparatingFace apart;  // where the narrowphase looks first; no result depends on it
-  Real adhesion = 0;     // combined [N]
+  PairMemory memory;  // as last seen, less what both bodies have moved since (clearance.h)
+  Real adhesion = 0;  // combined [N]
 
   [[nodiscard]] std::uint32_t collider_a() const { return static_cast<std::uint32_t>(key >> 32); }
   [[nodiscard]] std::uint32_t collider_b() const {

@@ -47,6 +47,7 @@ namespace detail {
 void plan_step(WorldState& world, double dt) {
   world.dt = static_cast<Real>(dt);
   world.h = world.dt / static_cast<Real>(world.settings.substeps);
+  world.falls_in_a_step = world.dt * world.dt * static_cast<Real>(world.settings.gravity.norm());
   world.flags.gravity = world.settings.gravity.squaredNorm() > 0;
   world.flags.sleeping = may_sleep(world.settings);
   world.flags.sensors = world.counts.sensors > 0;

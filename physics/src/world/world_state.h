@@ -90,7 +90,7 @@ struct PairFindings {
   bool gone = false;                   // the bounds are apart, or all sleeps
   bool overlaps = false;               // sensors: whether they see the other
   Passage passage = Passage::Apart;
-  SeparatingFace apart;
+  PairMemory memory;
 };
 
 // What is known of a collider's box and reach, so that most of them need not be looked at.
@@ -143,6 +143,7 @@ struct WorldState {
   StepMemory memory;
   StepFlags flags;
   Real dt = 0, h = 0;                         // [s] step, substep
+  Real falls_in_a_step = 0;                   // [m] g dt^2
   Real last_h = 0;                            // [s] substep to which the remembered impulses belong
   bool deep_overlap = false;                  // some contact of this step begins far inside
   std::vector<std::uint8_t> overlaps_deeply;  // per dense body, only then: whether it has one
@@ -176,6 +177,7 @@ struct WorldState {
   std::vector<FastOthers> fast_others_by_chunk;
   std::vector<std::uint32_t> query_list;  // collider slots whose pairs must be sought
   std::vector<std::uint32_t> touched;     // body slots that somebody acted on since the last step
+  std::vector<std::uint32_t> displaced;   // ... whose path since the last step is not known
 
   // Events are gathered from the end of one step to the end of the next, then published together.
   EventLists gathering, published;

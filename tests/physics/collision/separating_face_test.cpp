@@ -72,17 +72,17 @@ TEST(SeparatingFace, MemoryChangesNoBitOfAManifold) {
     const Transform xa{to_vec(V(0.1 * size, 0, 0)), random.rotation()};
     const Flyby flyby(random, size);
     const Real margin = static_cast<Real>(random.uniform(0, 0.05) * size);
-    SeparatingFace memory;
+    PairMemory memory;
     for (int i = 0; i <= kSteps; ++i) {
       const Transform xb = flyby.at(static_cast<double>(i) / kSteps);
       Manifold with, without;
-      const bool known = memory.is_known();
+      const bool known = memory.axis.is_face();
       const bool touching = collide(a, xa, b, xb, margin, with, &memory);
       EXPECT_EQ(touching, collide(a, xa, b, xb, margin, without));
       ASSERT_TRUE(same(with, without)) << "pair " << k << ", pose " << i;
-      EXPECT_FALSE(touching && memory.is_known());
+      EXPECT_FALSE(touching && memory.axis.is_face());
       apart += touching ? 0 : 1;
-      from_memory += !touching && known && memory.is_known() ? 1 : 0;
+      from_memory += !touching && known && memory.axis.is_face() ? 1 : 0;
     }
   }
   std::printf("[ figures  ] %d of %d poses apart, %d with a face remembered\n", apart,
@@ -98,7 +98,7 @@ TEST(SeparatingFace, AStaleMemoryIsHarmless) {
   const Transform xa{{0, 0, 0}, {0, 0, 0, 1}}, xb{{0, Real(1.5), 0}, {0, 0, 0, 1}};
   for (const bool of_second : {false, true}) {
     for (int face = 0; face < 300; ++face) {
-      SeparatingFace memory(face, of_second);
+      PairMemory memory{AxisHint::of_face(face, of_second)};
       Manifold manifold;
       EXPECT_TRUE(collide(a, xa, b, xb, Real(0), manifold, &memory));
       EXPECT_EQ(manifold.count, 4);
