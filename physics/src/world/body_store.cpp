@@ -60,7 +60,7 @@ void BodyStore::wake(std::uint32_t slot) {
 
 void BodyStore::rest(std::uint32_t slot) {
   if (!is_awake(slot)) return;
-  travel[slot] = {};
+  standing.push_back(slot);
   --awake_end;
   swap_dense(info[slot].dense, awake_end);
 }

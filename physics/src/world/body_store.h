@@ -111,6 +111,7 @@ class BodyStore {
   std::vector<BodyInfo> info;
   std::vector<std::uint32_t> dense_of;    // info[slot].dense, close together for the stages' loops
   std::vector<BodyTravel> travel;         // by slot: pairs know slots
+  std::vector<std::uint32_t> standing;    // slots whose travel may have ended since then
   std::vector<std::uint32_t> free_slots;  // reused last in, first out
   std::uint32_t alive_count = 0;
   bool some_called = false;  // some awake body may have called for the accurate solver

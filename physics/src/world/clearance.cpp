@@ -32,14 +32,14 @@ void note_travel(WorldState& world, std::uint32_t dense, const BodyPose& before,
 
 void forget_travel(WorldState& world, std::uint32_t body) {
   world.bodies.travel[body] = {kFar, kFar};
-  world.displaced.push_back(body);
+  world.bodies.standing.push_back(body);
 }
 
-void settle_displaced(WorldState& world) {
-  for (const std::uint32_t body : world.displaced)
-    if (body < world.bodies.dense_of.size() && !world.bodies.is_awake(body))
-      world.bodies.travel[body] = {};
-  world.displaced.clear();
+void end_travels(WorldState& world) {
+  BodyStore& bodies = world.bodies;
+  for (const std::uint32_t body : bodies.standing)
+    if (!bodies.info[body].alive || !bodies.is_awake(body)) bodies.travel[body] = {};
+  bodies.standing.clear();
 }
 
 bool stays_clear(const WorldState& world, Pair& pair) {

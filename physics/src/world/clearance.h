@@ -14,8 +14,9 @@ void note_travel(WorldState& world, std::uint32_t dense, const BodyPose& before,
 // have been looked at.
 void forget_travel(WorldState& world, std::uint32_t body);
 
-// After all pairs have been looked at: what stands still where it was put has moved no more.
-void settle_displaced(WorldState& world);
+// After all pairs have been looked at: what fell asleep, or stands still where it was put, has
+// moved no more.
+void end_travels(WorldState& world);
 
 // Takes from the pair's gap what its bodies have moved; whether the rest is surely wider than what
 // contacts are made within in this step (reach_of in narrowphase.cpp) of a margin of kMarginSlops.

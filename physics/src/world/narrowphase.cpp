@@ -411,7 +411,7 @@ void collide_pairs(WorldState& world) {
   take_findings(world);
   note_paired(world);
   drop_hidden_contacts(world);
-  settle_displaced(world);
+  end_travels(world);
   report_contacts(world);
   spread_depth(world);
 }

@@ -169,13 +169,17 @@ Status PhysicsWorld::set_settings(const WorldSettings& settings) {
   detail::note_input(world, InputKind::SetSettings, 0,
                      [&](auto& out) { detail::append(out, settings); });
   const bool forces = settings.forced != world.settings.forced;
-  const bool wake_all =
-      settings.gravity != world.settings.gravity || forces || !detail::may_sleep(settings);
+  const bool falls_otherwise = settings.gravity != world.settings.gravity;
+  const bool wake_all = falls_otherwise || forces || !detail::may_sleep(settings);
   world.settings = settings;
   if (wake_all) {
     for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot)
       if (world.bodies.info[slot].alive && world.bodies.info[slot].island != detail::kNone)
         detail::wake_body(world, slot);
+  }
+  if (falls_otherwise) {  // boxes reach as far as bodies may fall
+    for (std::uint32_t slot = 0; slot < world.bodies.info.size(); ++slot)
+      if (world.bodies.info[slot].alive) world.touched.push_back(slot);
   }
   if (forces) detail::remake_pairs(world, [](const detail::Pair&) { return true; });
   return {};

@@ -177,7 +177,6 @@ struct WorldState {
   std::vector<FastOthers> fast_others_by_chunk;
   std::vector<std::uint32_t> query_list;  // collider slots whose pairs must be sought
   std::vector<std::uint32_t> touched;     // body slots that somebody acted on since the last step
-  std::vector<std::uint32_t> displaced;   // ... whose path since the last step is not known
 
   // Events are gathered from the end of one step to the end of the next, then published together.
   EventLists gathering, published;

@@ -80,7 +80,8 @@ TEST_P(Clearance, OfCloseBodiesIsNeverStale) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Clearance, testing::Range(1u, 9u));
+// 313: a body falls asleep as another one comes near. 644: gravity grows where boxes are close.
+INSTANTIATE_TEST_SUITE_P(, Clearance, testing::Values(1u, 2u, 3u, 4u, 8u, 313u, 644u));
 
 }  // namespace
 }  // namespace plumb::inline PLUMB_ABI
