@@ -79,10 +79,29 @@ void hear_no_more(WorldState& world, const Island& island) {
   }
 }
 
+bool is_tree(const Island& island) {
+  return island.matrix.products() <= tolerance::kTreeProducts * island.bodies.size();
+}
+
+bool is_within_means(const Island& island) {
+  const std::size_t products = island.matrix.products();
+  return products <= tolerance::kMostProducts &&
+         (is_tree(island) ||
+          products * tolerance::kFewFactorizations <= tolerance::kMostClusterWork);
+}
+
+std::uint32_t budget_of(const Island& island, std::uint32_t islands) {
+  const std::size_t work =
+      is_tree(island)
+          ? std::min(tolerance::kMostWork, tolerance::kWorkPerBody * island.bodies.size())
+          : tolerance::kMostClusterWork;
+  const std::size_t each = island.matrix.products() + tolerance::kProductsBeside;
+  return static_cast<std::uint32_t>(work / islands / each);
+}
+
 void note_effort(WorldState& world, const Island& island) {
   const bool overrun = island.total_factorizations > island.budget;
-  const bool is_tree = island.matrix.products() <= tolerance::kTreeProducts * island.bodies.size();
-  const std::uint8_t most = is_tree ? tolerance::kMostOverruns : 1;
+  const std::uint8_t most = is_tree(island) ? tolerance::kMostOverruns : 1;
   std::uint8_t overruns = 0;
   for (const IslandBody& body : island.bodies) {
     BodyInfo& info = world.bodies.info[world.bodies.slot_of[body.dense]];

@@ -45,6 +45,13 @@ class CallsOfRows {
 // After the last substep: counts the calls, of_row[k] of row k, on their bodies.
 void hear_calls(WorldState& world, const Call* of_row);
 
+// Columns, chains and trees: factored with hardly any fill.
+bool is_tree(const Island& island);
+// Whether a called island may be begun, and how many factorizations a step it gets where so many
+// islands share the step.
+bool is_within_means(const Island& island);
+std::uint32_t budget_of(const Island& island, std::uint32_t islands);
+
 // The island's bodies go back to the fast solver and are not heard for a while.
 void hear_no_more(WorldState& world, const Island& island);
 // After the last substep: what took more than its share too often is heard no more.

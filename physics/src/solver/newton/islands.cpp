@@ -181,7 +181,7 @@ void find_newton_islands(WorldState& world) {
   for (std::uint32_t i = 0; i < solver.count; ++i) {
     Island& island = solver.islands[i];
     if (island.bodies.empty()) continue;
-    if (fits[i] != 0 && !(chooses && island.matrix.products() > newton::tolerance::kMostProducts)) {
+    if (fits[i] != 0 && (!chooses || newton::is_within_means(island))) {
       ++kept;
       continue;
     }
@@ -192,9 +192,8 @@ void find_newton_islands(WorldState& world) {
   for (std::uint32_t i = 0; i < solver.count; ++i) {
     Island& island = solver.islands[i];
     if (island.bodies.empty()) continue;
-    island.budget = chooses ? static_cast<std::uint32_t>(newton::tolerance::kMostWork / kept /
-                                                         island.matrix.products())
-                            : std::numeric_limits<std::uint32_t>::max();
+    island.budget =
+        chooses ? newton::budget_of(island, kept) : std::numeric_limits<std::uint32_t>::max();
   }
 }
 

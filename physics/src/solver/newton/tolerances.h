@@ -54,13 +54,21 @@ inline constexpr Real kMostLoad = Real(12.5);
 inline constexpr Real kMostOverlap = Real(10);
 inline constexpr unsigned char kStepsToBeLoad = 8;
 inline constexpr unsigned char kStepsToStay = 60;
-// What it may cost then, in products of 6x6 blocks (0.4 us each with all that goes with them): in
-// one factorization, a column of 200 bodies; in one step of the world, about 24 ms. An island that
-// is larger, or has taken more, is not heard for so many steps [-]; columns, chains and trees (so
-// many products a body) only where that comes so many steps in a row: they settle [-]. Larger ones
-// are not even looked at [bodies].
+// What it may cost then, in products of 6x6 blocks (0.4 us each with all that goes with them, and
+// so many as much for what a factorization takes beside): in one factorization, a column of 200
+// bodies; in one step of the world, for columns, chains and trees (so many products a body) so
+// many for each body, about 24 ms at most; 2 ms for clusters, which seldom need it for longer than
+// a blow. An island that is larger, or has taken more, is not heard for so many steps [-];
+// trees only where that comes so many steps in a row: they settle [-]. Larger ones are not even
+// looked at [bodies].
 inline constexpr std::size_t kMostProducts = 600;
+inline constexpr std::size_t kProductsBeside = 20;
 inline constexpr std::size_t kMostWork = 60'000;
+inline constexpr std::size_t kWorkPerBody = 1'200;
+inline constexpr std::size_t kMostClusterWork = 5'000;
+// A cluster that would take more than that with so many factorizations a step, which is few, is not
+// begun [-].
+inline constexpr std::size_t kFewFactorizations = 16;
 inline constexpr unsigned char kStepsOfPause = 240;
 inline constexpr std::size_t kTreeProducts = 3;
 inline constexpr unsigned char kMostOverruns = 20;
