@@ -5,6 +5,7 @@
 
 #include "collision/rolling.h"
 #include "effects/effect_world.h"
+#include "math/prefetch.h"
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
 #include "solver/newton/newton_solver.h"
@@ -181,8 +182,12 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   for (int i = 0; i < row.count; ++i)
     gap += contact.manifold.points[i].separation - contact.advanced_gap;
   const Vec half_gap = (Real(0.5) * gap / static_cast<Real>(row.count)) * row.n;
-  row.surface_a = rolling_surface(world, pair.collider_a(), contact.radius_a, row.arm_a, row.n);
-  row.surface_b = rolling_surface(world, pair.collider_b(), contact.radius_b, row.arm_b, -row.n);
+  row.surface_a = contact.radius_a;
+  row.surface_b = contact.radius_b;
+  if (pair.curved) {
+    row.surface_a = rolling_surface(world, pair.collider_a(), contact.radius_a, row.arm_a, row.n);
+    row.surface_b = rolling_surface(world, pair.collider_b(), contact.radius_b, row.arm_b, -row.n);
+  }
   row.core_a = row.arm_a - half_gap - row.surface_a * row.n;
   row.core_b = row.arm_b + half_gap + row.surface_b * row.n;
   if (!row.both_dynamic) {
@@ -320,8 +325,13 @@ void build_rows(WorldState& world) {
   if (!world.joints.empty()) build_joints(world);
   world.rows.resize(count);
   parallel_for(world, count, tolerance::kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i)
+    for (std::uint32_t i = begin; i < end; ++i) {
+      // Rows of one colour lie far apart among the contacts.
+      if (i + 2 * kRowsAhead < end) prefetch(world.contacts[world.row_order[i + 2 * kRowsAhead]]);
+      if (i + kRowsAhead < end)
+        prefetch(world.pairs[world.contacts[world.row_order[i + kRowsAhead]].pair]);
       build_row(context, world.rows[i], world.row_order[i]);
+    }
   });
   build_turning_rows(world);
   find_spinning_rows(world);

@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "effects/effect_world.h"
+#include "math/prefetch.h"
 #include "motion/body_motion.h"
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
@@ -189,6 +190,8 @@ void store_impulses(WorldState& world) {
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t k = begin; k < end; ++k) {
                    const ContactRow<Real>& row = world.rows[k];
+                   if (k + kRowsAhead < end)
+                     prefetch(world.contacts[world.rows[k + kRowsAhead].contact]);
                    Contact& contact = world.contacts[row.contact];
                    contact.at_rest = row.at_rest;
                    for (int i = 0; i < row.count; ++i) {

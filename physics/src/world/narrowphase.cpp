@@ -72,9 +72,7 @@ Real reach_of(const WorldState& world, const Pair& pair) {
   const Real speed = length(vb.v - va.v) + length(va.w) * a.radius + length(vb.w) * b.radius;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   // Surfaces are not followed after the step: they are seen coming from as far as it takes.
-  const bool surface = is_surface(world.colliders.info[pair.collider_a()].shape.type) ||
-                       is_surface(world.colliders.info[pair.collider_b()].shape.type);
-  const Real near = surface ? kUnbounded : tolerance::kSweptFraction * thickness;
+  const Real near = pair.on_surface ? kUnbounded : tolerance::kSweptFraction * thickness;
   return std::min(world.dt * speed, near) + world.falls_in_a_step;
 }
 
@@ -210,6 +208,13 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
     found.gone = boxes_have_parted(world, slot_a, slot_b) || (!some_awake && !found.overlaps);
     return;
   }
+  const Real reach = reach_of(world, pair);
+  const Real margin = tolerance::kMarginSlops * pair.slop + reach;
+  if (!pair.sensor && recycle(world, pair, margin, reach)) {
+    found.count = pair.contact_count;
+    found.kept = true;
+    return;
+  }
   const ColliderInfo& a = world.colliders.info[slot_a];
   const ColliderInfo& b = world.colliders.info[slot_b];
   const PosVec reference =
@@ -218,13 +223,6 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
   if (pair.sensor) {
     Manifold manifold;
     found.overlaps = collide(a.shape, xa, b.shape, xb, Real(0), manifold);
-    return;
-  }
-  const Real reach = reach_of(world, pair);
-  const Real margin = tolerance::kMarginSlops * pair.slop + reach;
-  if (recycle(world, pair, margin, reach)) {
-    found.count = pair.contact_count;
-    found.kept = true;
     return;
   }
   if (has_parts(a.shape.type) || has_parts(b.shape.type)) {

@@ -99,6 +99,8 @@ Pair make_pair_unforced(const WorldState& world, std::uint64_t key) {
   if (!pair.sensor)
     pair.adhesion = std::max(a.component.material.adhesion, b.component.material.adhesion);
   pair.one_way = !pair.sensor && (is_one_way(a.component) || is_one_way(b.component));
+  pair.curved = is_curved(a.shape.type) || is_curved(b.shape.type);
+  pair.on_surface = is_surface(a.shape.type) || is_surface(b.shape.type);
   return pair;
 }
 

@@ -36,6 +36,8 @@ struct Pair {                            // 64 bytes in f32
   bool driven : 1 = false;         // the surface of one of them runs
   bool one_way : 1 = false;        // one of them is solid from one side only
   bool grained : 1 = false;        // one of them has less friction along a grain
+  bool curved : 1 = false;         // one of them is a cylinder or cone
+  bool on_surface : 1 = false;     // one of them is a mesh or heightfield
   bool touching = false;           // has contacts (sensor: overlaps)
   bool was_touching = false;       // after the previous step
   Passage passage = Passage::Apart;
