@@ -181,8 +181,10 @@ void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
     info.island = index;
     info.acceleration = {0, 0, 0};
     world.bodies.rest(body);
-    for (const std::uint32_t slot : info.colliders)
+    for (const std::uint32_t slot : info.colliders) {
       world.trees.set_asleep(world.colliders.info[slot], slot, true);
+      update_reach(world, slot);  // it goes nowhere now
+    }
     world.gathering.sleep.push_back({{body, info.generation}, true});
   }
 }

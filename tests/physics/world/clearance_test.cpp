@@ -81,7 +81,8 @@ TEST_P(Clearance, OfCloseBodiesIsNeverStale) {
 }
 
 // 313: a body falls asleep as another one comes near. 644: gravity grows where boxes are close.
-INSTANTIATE_TEST_SUITE_P(, Clearance, testing::Values(1u, 2u, 3u, 4u, 8u, 313u, 644u));
+// 2802: what fell asleep reaches no farther.
+INSTANTIATE_TEST_SUITE_P(, Clearance, testing::Values(1u, 2u, 3u, 4u, 8u, 313u, 644u, 2802u));
 
 }  // namespace
 }  // namespace plumb::inline PLUMB_ABI
