@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/anchors/growth.h"
 #include "bench/anchors/scenes.h"
 #include "bench/anchors/table.h"
 
@@ -18,7 +19,7 @@ struct Options {
   std::vector<std::string> scenes, engines;
   std::vector<int> threads = {1};
   int repeats = 3, substeps = 0;
-  bool profile = false, list = false;
+  bool profile = false, list = false, growth = false;
   std::string csv, chart;
 };
 
@@ -109,7 +110,8 @@ bool write_file(const std::string& path, const std::string& text) {
   return false;
 }
 
-bool draw(const std::vector<SceneResult>& results, const std::string& path) {
+template <class Results>
+bool draw(const Results& results, const std::string& path) {
   const std::string terminal = path.ends_with(".svg") ? "svg" : "png";
   const std::string script = chart_script(results, terminal, path);
   std::FILE* pipe = popen("gnuplot", "w");
@@ -127,6 +129,23 @@ int list() {
   for (const EngineKind& kind : engine_kinds())
     std::printf("  %-12s %s\n", kind.name.c_str(), kind.settings.c_str());
   return 0;
+}
+
+int grow(const Options& options) {
+  const std::vector<const EngineKind*> kinds = choose_engines(options);
+  if (kinds.empty()) return 2;
+  Progress progress;
+  std::string running;
+  const std::vector<Growth> growths =
+      measure_growth(kinds, [&](const std::string& what, int done, int steps) {
+        if (what != running) progress.begin(running = what, steps);
+        progress.show(done);
+      });
+  progress.end();
+  std::fputs(table_of(growths).c_str(), stdout);
+  bool good = options.csv.empty() || write_file(options.csv, csv_of(growths));
+  if (!options.chart.empty() && !growths.empty()) good = draw(growths, options.chart) && good;
+  return good ? 0 : 1;
 }
 
 int measure_all(const Options& options) {
@@ -176,13 +195,17 @@ int program(int argc, char** argv) {
   app.add_flag("--profile", options.profile, "One more run of ours that tells its stages apart");
   app.add_option("--csv", options.csv, "Write the figures into this file");
   app.add_option("--chart", options.chart, "Draw them into this .svg or .png (needs gnuplot)");
+  app.add_flag("--growth", options.growth,
+               "Instead: how a step grows with the number of bodies, from 1e3 to 1e5")
+      ->excludes("SCENE");
   app.add_flag("--list", options.list, "Name scenes and engines and stop");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return options.list ? list() : measure_all(options);
+  if (options.list) return list();
+  return options.growth ? grow(options) : measure_all(options);
 }
 
 }  // namespace
