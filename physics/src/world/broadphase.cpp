@@ -51,7 +51,7 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
   Vec path{0, 0, 0};
   Real around = slops, turn = 0;
   Vec ball{0, 0, 0};
-  if (!collider.is_static) {
+  if (bodies.is_awake(collider.body)) {
     const BodyVelocity& velocity = bodies.velocity[body.dense];
     // Turning moves a point by at most |w| times its distance from the centre of mass, and never
     // out of the ball around it.

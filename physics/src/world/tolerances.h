@@ -36,9 +36,9 @@ inline constexpr Real kFatBoxFraction = Real(0.1);
 // ... and reach ahead along the path of this many steps [-], so that a fast body re-enters the tree
 // every few steps only.
 inline constexpr Real kFatBoxSteps = Real(2);
-// What is near nothing: as many as carry it by this fraction of its own reach [-], so that its box
-// hardly grows, and at most so many [-].
-inline constexpr Real kFreeBoxFraction = Real(0.25);
+// What is near nothing: as many as carry it by so many times its own radius [-], and at most so
+// many [-]. Long boxes meet little where there is little to meet.
+inline constexpr Real kFreeBoxFraction = Real(6);
 inline constexpr Real kFreeBoxSteps = Real(64);
 
 // Overlap is worked off no faster than this many thicknesses a second [1/s]. 2: a 1 m box leaves
