@@ -51,7 +51,7 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
   Vec path{0, 0, 0};
   Real around = slops, turn = 0;
   Vec ball{0, 0, 0};
-  if (bodies.is_awake(collider.body)) {
+  if (bodies.is_awake(collider.body) && !collider.is_static) {
     const BodyVelocity& velocity = bodies.velocity[body.dense];
     // Turning moves a point by at most |w| times its distance from the centre of mass, and never
     // out of the ball around it.

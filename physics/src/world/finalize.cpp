@@ -50,6 +50,8 @@ void rest_in_step(WorldState& world, std::uint32_t body) {
   const std::uint32_t last = world.bodies.awake_end;
   std::swap(world.delta[place], world.delta[last]);
   std::swap(world.substep[place], world.substep[last]);
+  for (const std::uint32_t collider : world.bodies.info[body].colliders)
+    update_reach(world, collider);  // it goes nowhere now
 }
 
 void quarantine(WorldState& world, std::uint32_t body) {
