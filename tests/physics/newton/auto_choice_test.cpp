@@ -131,7 +131,7 @@ TEST(AutoChoice, BoundsWhatAnIslandCosts) {
   PhysicsWorld world(no_sleep());
   pressed_pile(world);
   run(world, 1);
-  const PlanDecision& decision =
+  const PlanDecision decision =
       world.plan().decisions[static_cast<std::size_t>(PlanItem::AccurateContacts)];
   EXPECT_FALSE(decision.active);
   EXPECT_NE(decision.reason.find("go on in soft steps"), std::string::npos) << decision.reason;
