@@ -1,6 +1,7 @@
 #include "solver/turned_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
@@ -248,20 +249,25 @@ bool telling_showed(const WorldState& world, const ContactRow<Real>& row) {
   if (row.let_go) return true;
   if (!(row.pressed_anew > Real(0))) return false;
   if (row.turned != ContactRow<Real>::kNotTurned) return shows(world, row, row.pressed_anew);
-  // Arms stayed: what counts is another inertia, under the load and the friction that goes with it.
-  const auto gains = [&](std::uint32_t body, const Symmetric3<Real>& now, Vec arm) {
-    const BodyMass& mass = world.bodies.mass[body];
-    if (!world.substep[body].constrained) return false;
-    const Symmetric3<Real> then = world_inverse_inertia(mass, world.bodies.pose[body].q);
-    const auto gained = [&](Vec impulse) {
-      const Vec turning = cross(arm, impulse);
-      return parts_visibly(mass, {0, 0, 0}, now * turning - then * turning, world.dt);
-    };
-    const Real rubs = row.friction * row.pressed_anew;
-    return gained(row.pressed_anew * row.n) || gained(rubs * row.t1) || gained(rubs * row.t2);
+  // Arms stayed, and an impulse gives the same momentum whatever inertia rows see: that decides how
+  // large it must be for a velocity.
+  const auto begun = [&](std::uint32_t body, const Symmetric3<Real>& now) {
+    return world.substep[body].constrained
+               ? world_inverse_inertia(world.bodies.mass[body], world.bodies.pose[body].q)
+               : now;
   };
-  return gains(row.body_a, row.inverse_inertia_a, row.arm_a) ||
-         gains(row.body_b, row.inverse_inertia_b, row.arm_b);
+  const Symmetric3<Real> then_a = begun(row.body_a, row.inverse_inertia_a);
+  const Symmetric3<Real> then_b = begun(row.body_b, row.inverse_inertia_b);
+  const auto changes = [&](Vec d, Real impulse) {
+    const Vec a = cross(row.arm_a, d), b = cross(row.arm_b, d);
+    const Real turning = dot(a, row.inverse_inertia_a * a) + dot(b, row.inverse_inertia_b * b);
+    const Real before = dot(a, then_a * a) + dot(b, then_b * b);
+    const Vec moving = multiply_each(row.inverse_mass_a + row.inverse_mass_b, d);
+    const Real share = std::abs(turning - before) / (dot(d, moving) + turning);
+    return shows(world, row, share * impulse);
+  };
+  const Real rubs = row.friction * row.pressed_anew;
+  return changes(row.n, row.pressed_anew) || changes(row.t1, rubs) || changes(row.t2, rubs);
 }
 
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row) {

@@ -157,10 +157,18 @@ void set_back(const Pair& pair, Vec advance, Contact& contact) {
   }
 }
 
-// Whether a contact that looking ahead has found is seen from here as well.
+// Whether a contact that looking ahead has found is seen from here as well. What turns fast is told
+// anew within the step where it was (solver/turned_rows.h), and there it would be another contact.
 bool is_seen_anyway(const WorldState& world, const Pair& pair, const Contact& contact,
                     const Manifold& here) {
   const BodyInfo &a = world.bodies.info[pair.body_a], &b = world.bodies.info[pair.body_b];
+  const BodyStore& bodies = world.bodies;
+  const auto turns_fast = [&](const BodyInfo& body) {
+    const Real turning = visible_turning(bodies.mass[body.dense], bodies.pose[body.dense].q,
+                                         bodies.velocity[body.dense].w);
+    return world.dt * turning > tolerance::kFastTurn;
+  };
+  if (!(pair.restitution > Real(0)) && (turns_fast(a) || turns_fast(b))) return false;
   const bool other_moves = (pair.relative_to_b ? a : b).type == MotionType::Dynamic;
   const Vec carried = other_moves ? contact.advance : Vec{0, 0, 0};
   return is_seen_anyway(contact.manifold, here, carried, std::min(a.radius, b.radius));

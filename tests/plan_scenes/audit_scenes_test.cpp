@@ -1,5 +1,5 @@
 // Invariant: the plan chooses rightly in every scene that is shipped and in every demo (see
-// ../audit_test.cpp for the terms).
+// ../plan/audit_test.cpp for the terms).
 #include <gtest/gtest.h>
 
 #include <algorithm>
