@@ -258,8 +258,8 @@ bool telling_showed(const WorldState& world, const ContactRow<Real>& row) {
   };
   const Symmetric3<Real> then_a = begun(row.body_a, row.inverse_inertia_a);
   const Symmetric3<Real> then_b = begun(row.body_b, row.inverse_inertia_b);
-  const auto changes = [&](Vec d, Real impulse) {
-    const Vec a = cross(row.arm_a, d), b = cross(row.arm_b, d);
+  const auto changes = [&](Vec place, Vec d, Real impulse) {
+    const Vec a = cross(row.arm_a + place, d), b = cross(row.arm_b + place, d);
     const Real turning = dot(a, row.inverse_inertia_a * a) + dot(b, row.inverse_inertia_b * b);
     const Real before = dot(a, then_a * a) + dot(b, then_b * b);
     const Vec moving = multiply_each(row.inverse_mass_a + row.inverse_mass_b, d);
@@ -267,7 +267,13 @@ bool telling_showed(const WorldState& world, const ContactRow<Real>& row) {
     return shows(world, row, share * impulse);
   };
   const Real rubs = row.friction * row.pressed_anew;
-  return changes(row.n, row.pressed_anew) || changes(row.t1, rubs) || changes(row.t2, rubs);
+  for (int i = 0; i < row.count; ++i) {
+    const Vec place = row.points[i].a * row.t1 + row.points[i].b * row.t2;
+    if (changes(place, row.n, row.pressed_anew) || changes(place, row.t1, rubs) ||
+        changes(place, row.t2, rubs))
+      return true;
+  }
+  return false;
 }
 
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row) {
