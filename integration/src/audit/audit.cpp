@@ -1,10 +1,11 @@
 #include "audit/audit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "audit/must.h"
+#include "audit/samples.h"
+#include "audit/twins.h"
 #include "plumb/snapshot.h"
 
 namespace plumb::inline PLUMB_ABI::audit {
@@ -13,73 +14,6 @@ namespace {
 // What the two ways of computing may differ by without meaning anything [-]: some roundings of a
 // place that is tens of sizes from the origin.
 constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-
-struct BodySample {
-  BodyState state;
-  Eigen::Vector3d L, center;  // [kg m^2/s], [m]
-  double size = 1;            // [m] radius of gyration of the whole body
-  double weight_turn = 0;     // [kg m^2/s] what its weight may do in a step
-  double rest_speed = 0;      // [m/s]
-  bool held = false;
-};
-using Sample = std::vector<BodySample>;
-
-Sample sample_of(const PhysicsWorld& world, double dt) {
-  std::vector<BodyState> states;
-  world.copy_body_states(states);
-  std::vector<ContactState> contacts;
-  world.copy_contacts(contacts);
-  Sample out;
-  for (const BodyState& state : states) {
-    if (state.type != MotionType::Dynamic) continue;
-    BodySample& body = out.emplace_back();
-    body.state = state;
-    body.L = world.angular_momentum(state.id).cast<double>();
-    body.center = world.center_of_mass(state.id).cast<double>();
-    const MassProperties mass = world.mass_properties(state.id);
-    const double gyration = std::sqrt(mass.I_Bcm_B.trace() / (2 * mass.mass));
-    if (gyration > 0) body.size = gyration;
-    const double g = world.settings().gravity.cast<double>().norm();
-    body.weight_turn = mass.mass * g * body.size * dt;
-    body.held = std::any_of(contacts.begin(), contacts.end(), [&](const ContactState& contact) {
-      return contact.body_a == state.id || contact.body_b == state.id;
-    });
-    body.held = body.held || !world.joints_of(state.id).empty();
-    // Below this a body counts as resting (physics/src/world/tolerances.h).
-    body.rest_speed = std::max(0.014 * std::sqrt(g * body.size), 1e-3 * body.size);
-  }
-  return out;
-}
-
-// In body sizes a step: of places and attitudes, and of what the velocities make of them.
-double motion_between(const BodySample& a, const BodySample& b, double dt) {
-  const Eigen::Quaterniond turn =
-      a.state.pose.orientation.cast<double>().conjugate() * b.state.pose.orientation.cast<double>();
-  const double turned = 2 * turn.vec().norm();
-  const double moved = (b.center - a.center).norm() / a.size;
-  const double v =
-      (b.state.linear_velocity - a.state.linear_velocity).cast<double>().norm() * dt / a.size;
-  const double w = (b.state.angular_velocity - a.state.angular_velocity).cast<double>().norm() * dt;
-  return std::max({turned, moved, v, w});
-}
-
-// Of the angular momentum; what a contact or a joint holds has that of its weight for company.
-double momentum_between(const BodySample& a, const BodySample& b) {
-  const double whole = a.L.norm() + (a.held ? a.weight_turn : 0);
-  return whole > 0 ? (b.L - a.L).norm() / whole : 0;
-}
-
-double change_between(PlanItem item, const Sample& a, const Sample& b, double dt) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
-    if (item == PlanItem::Sleeping && a[i].state.awake) continue;
-    double change = item == PlanItem::Gyroscopic ? momentum_between(a[i], b[i])
-                                                 : motion_between(a[i], b[i], dt);
-    if (item == PlanItem::Sleeping) change *= a[i].size / (dt * a[i].rest_speed);
-    most = std::max(most, change);
-  }
-  return most;
-}
 
 bool was_chosen(PlanItem item, const PhysicsWorld& world, std::uint64_t planned) {
   const StepReport& report = world.last_report();
@@ -101,8 +35,14 @@ bool was_chosen(PlanItem item, const PhysicsWorld& world, std::uint64_t planned)
     case PlanItem::AccurateContacts:
       return report.newton_islands > 0;
     default:
-      return (planned & bit_of(item)) != 0;
+      break;
   }
+  if (item < PlanItem::PointGravity) return (planned & bit_of(item)) != 0;
+  const auto kind =
+      static_cast<std::size_t>(item) - static_cast<std::size_t>(PlanItem::PointGravity);
+  for (const EffectLedger::Row& row : world.effect_ledger().rows)
+    if (row.kind == kind) return row.acted > 0;
+  return false;
 }
 
 // The snapshot with one more item forced.
@@ -121,13 +61,15 @@ class Auditor {
   void look(const PhysicsWorld& world) {
     const Snapshot snapshot = world.save();
     must(usual_.restore(snapshot));
+    before_ = sample_of(usual_, dt_);
     std::uint64_t planned = usual_.planned_items();
     usual_.step(dt_);
     planned |= usual_.planned_items();
     const Sample as_planned = sample_of(usual_, dt_);
+    Twins twins(snapshot, before_, as_planned, dt_);
     for (std::size_t k = 0; k < kPlanItemCount; ++k) {
       const PlanItem item = static_cast<PlanItem>(k);
-      if (is_audited(item) && concerns(item)) compare(item, snapshot, as_planned, planned);
+      if (is_audited(item) && concerns(item)) compare(item, snapshot, as_planned, planned, twins);
     }
   }
 
@@ -142,8 +84,7 @@ class Auditor {
     return true;
   }
 
-  double change_with(PlanItem item, Choice choice, const Snapshot& snapshot,
-                     const Sample& as_planned) {
+  Sample sample_with(PlanItem item, Choice choice, const Snapshot& snapshot) {
     must(other_.restore(item == PlanItem::Sleeping ? snapshot : forcing(snapshot, item, choice)));
     if (item == PlanItem::Sleeping) {  // who sleeps is woken
       WorldSettings settings = other_.settings();
@@ -151,34 +92,44 @@ class Auditor {
       must(other_.set_settings(settings));
     }
     other_.step(dt_);
-    return change_between(item, as_planned, sample_of(other_, dt_), dt_);
+    return sample_of(other_, dt_);
+  }
+
+  // Whether roundings do as much, to the step as planned or to the one without the item.
+  bool is_chance(PlanItem item, const Snapshot& snapshot, const Sample& as_planned,
+                 const Sample& without, Twins& twins) const {
+    if (twins.explain(item, without)) return true;
+    if (item == PlanItem::Sleeping) return false;
+    const Snapshot forced = forcing(snapshot, item, Choice::Off);
+    return Twins(forced, before_, without, dt_).explain(item, as_planned);
   }
 
   void compare(PlanItem item, const Snapshot& snapshot, const Sample& as_planned,
-               std::uint64_t planned) {
+               std::uint64_t planned, Twins& twins) {
     Count& count = counts_[static_cast<std::size_t>(item)];
     ++count.steps;
     const bool chosen = was_chosen(item, usual_, planned);
-    const double off = change_with(item, Choice::Off, snapshot, as_planned);
+    const Sample without = sample_with(item, Choice::Off, snapshot);
+    const double off = largest_change(item, as_planned, without, dt_);
     const bool matters = off > tolerance_of(item);
     if (chosen) ++count.chosen;
-    if (is_saving(item)) {
-      if (matters) ++count.missed;
-      count.off_change = std::max(count.off_change, off);
+    if (chosen && !is_saving(item)) {
+      if (!matters) ++count.needless;
       return;
     }
-    if (chosen && !matters) ++count.needless;
-    if (chosen) return;
-    if (matters) ++count.missed;
+    if (matters)
+      ++(is_chance(item, snapshot, as_planned, without, twins) ? count.by_chance : count.missed);
     count.off_change = std::max(count.off_change, off);
-    if (may_force(item, Choice::On))
+    if (!is_saving(item) && may_force(item, Choice::On))
       count.on_change =
-          std::max(count.on_change, change_with(item, Choice::On, snapshot, as_planned));
+          std::max(count.on_change,
+                   largest_change(item, as_planned, sample_with(item, Choice::On, snapshot), dt_));
   }
 
   double dt_;
   Counts& counts_;
   PhysicsWorld usual_, other_;
+  Sample before_;
 };
 
 }  // namespace
@@ -230,6 +181,7 @@ void audit(PhysicsWorld& world, double dt, const Sampling& sampling, Counts& cou
   for (int step = 0; step < sampling.steps; ++step) {
     if (step % sampling.every == 0) auditor.look(world);
     world.step(dt);
+    if (sampling.progress) sampling.progress();
   }
 }
 

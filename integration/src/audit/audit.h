@@ -4,6 +4,8 @@
 //   chosen    the plan, or the step's own report, says that the item had work in this step
 //   needless  chosen, but forced off nothing changes beyond the tolerance
 //   missed    not chosen, but forced off something changes beyond the tolerance
+//   by chance the same, but what changes is changed as much by roundings (twins.h): the scene
+//             multiplies them, and the comparison cannot tell
 //
 // What saves work (kept manifolds, sleep) is the other way round: it is missed where taking it back
 // changes something beyond the tolerance, and never needless.
@@ -11,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "plumb/world.h"
@@ -19,7 +22,7 @@ namespace plumb::inline PLUMB_ABI::audit {
 
 struct Count {
   std::uint32_t steps = 0;  // that were compared
-  std::uint32_t chosen = 0, needless = 0, missed = 0;
+  std::uint32_t chosen = 0, needless = 0, missed = 0, by_chance = 0;
   double off_change = 0;  // the greatest by forcing it off where it was not chosen (savings: was)
   double on_change = 0;   // the greatest by forcing it on where it was not chosen
 };
@@ -34,8 +37,9 @@ bool is_saving(PlanItem item);
 double tolerance_of(PlanItem item);
 
 struct Sampling {
-  int steps = 240;  // of the run
-  int every = 8;    // of which one in so many is audited
+  int steps = 240;                   // of the run
+  int every = 8;                     // of which one in so many is audited
+  std::function<void()> progress{};  // called after each step, if there is one
 };
 // Steps the world along and adds to the counts.
 void audit(PhysicsWorld& world, double dt, const Sampling& sampling, Counts& counts);

@@ -112,7 +112,9 @@ void add_effects(CLI::App& app, EffectsOptions& options, int& exit_code) {
           ->add_flag("--audit", options.audit,
                      "Whether the plan chooses rightly: leave each item out and compare")
           ->excludes(scaling);
-  effects->add_option("SCENE", options.scenes, "Scene files to audit beside those drawn by lot")
+  effects
+      ->add_option("SCENE", options.scenes,
+                   "Scene files, or folders of them, to audit beside those drawn by lot")
       ->needs(audit);
   effects->callback([&] {
     if (options.audit) {

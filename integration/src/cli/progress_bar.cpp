@@ -21,8 +21,9 @@ ProgressBar::ProgressBar(std::uint64_t total, bool wanted)
       start_(Clock::now()),
       next_draw_(start_) {}
 
-ProgressBar::~ProgressBar() {
+void ProgressBar::finish() {
   if (visible_) std::fputs(kWipe, stderr);
+  visible_ = false;
 }
 
 void ProgressBar::show(std::uint64_t done, double simulated_seconds) {

@@ -9,12 +9,13 @@ namespace plumb::cli {
 class ProgressBar {
  public:
   ProgressBar(std::uint64_t total, bool wanted);
-  ~ProgressBar();  // wipes the line
+  ~ProgressBar() { finish(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   // simulated_seconds: below zero where there is nothing to say about them.
   void show(std::uint64_t done, double simulated_seconds);
+  void finish();  // wipes the line; nothing is shown any more
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -18,6 +18,7 @@
 #include "world/body_sweep.h"
 #include "world/forced.h"
 #include "world/tolerances.h"
+#include "world/visible.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
@@ -230,6 +231,15 @@ double work_on(const WorldState& world, const EffectScratch& scratch, const Affe
   return dot(wrench.force, path) + dot(wrench.torque, turn);
 }
 
+// Whether a link has changed its body's motion by more than rounding does.
+bool shows(const WorldState& world, const EffectScratch& scratch, const EffectLink& link) {
+  if (link.body == kNone) return link.other != kNone;
+  const AffectedBody& body = scratch.bodies[link.body];
+  const NumVec dv = multiply_each(body.inverse.linear, link.given.force);
+  const NumVec dw = body.inverse.angular * link.given.torque;
+  return parts_visibly(world.bodies.mass[body.dense], narrowed(dv), narrowed(dw), world.dt);
+}
+
 }  // namespace
 
 StiffView stiff_view(const EffectScratch& scratch, const AffectedBody& body) {
@@ -305,7 +315,8 @@ void act_effects(WorldState& world) {
   scratch.stiff.clear();
   scratch.shares.clear();
   for (EffectLink& link : scratch.links) {
-    const EffectLink fresh{link.effect, link.body, link.other, kNone, {}, {}, 0, {0, 0, 0}};
+    const EffectLink fresh{link.effect, link.body, link.other, kNone,    link.given,
+                           {},          {},        0,          {0, 0, 0}};
     link = fresh;
   }
   for_bodies(world, [&](AffectedBody& body) { see_body(world, scratch, body); });
@@ -325,7 +336,7 @@ void settle_effects(WorldState& world) {
   EffectStore& store = *world.effects;
   EffectScratch& scratch = *store.scratch;
   const double share = scratch.h / static_cast<double>(world.dt);
-  for (const EffectLink& link : scratch.links) {
+  for (EffectLink& link : scratch.links) {
     EffectMemory& memory = store.info[link.effect].memory;
     double work = 0;
     if (link.body != kNone) {
@@ -336,6 +347,8 @@ void settle_effects(WorldState& world) {
         mean.force -= (body.mass * link.rate) * ((1 / scratch.h) * path - link.medium);
       }
       work += work_on(world, scratch, body, mean);
+      link.given.force += scratch.h * mean.force;
+      link.given.torque += scratch.h * mean.torque;
       memory.force += share * mean.force;
       memory.torque += share * mean.torque;
     }
@@ -351,6 +364,12 @@ void settle_effects(WorldState& world) {
 }
 
 void end_effects(WorldState& world) {
+  EffectScratch& scratch = *world.effects->scratch;
+  for (std::size_t kind = 0; kind < kEffectKindCount; ++kind)
+    scratch.showed[kind] = static_cast<std::uint32_t>(
+        std::count_if(scratch.links.begin() + scratch.first[kind],
+                      scratch.links.begin() + scratch.first[kind + 1],
+                      [&](const EffectLink& link) { return shows(world, scratch, link); }));
   for (const AffectedBody& body : world.effects->scratch->bodies) {
     BodyForce& force = world.bodies.force[body.dense];
     force.torque = body.base_torque;

@@ -55,6 +55,7 @@ struct EffectLink {
   std::uint32_t effect = 0;                   // slot
   std::uint32_t body = kNone, other = kNone;  // affected; kNone: the world, or at rest
   std::uint32_t stiff = kNone;                // its StiffShare
+  Wrench given;                               // [N s], [N m s] to the body, in this step so far
   // In this substep:
   Wrench wrench, wrench_on_other;
   double rate = 0;         // [1/s] its share of the drag
@@ -90,6 +91,7 @@ struct EffectScratch {
   std::vector<StiffShare> shares;
   std::vector<SpringRow> spring_rows;
   std::uint32_t first[kEffectKindCount + 1] = {};  // links of each kind
+  std::uint32_t showed[kEffectKindCount] = {};     // ... that moved their body visibly
   // By dense index: the affected body, where the stamp is that of the step.
   std::vector<std::uint64_t> stamp;
   std::vector<std::uint32_t> affected_of;

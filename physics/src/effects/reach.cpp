@@ -24,7 +24,7 @@ struct Place {
 Place place_of(const WorldState& world, std::uint32_t body, bool ever) {
   const BodyInfo& info = world.bodies.info[body];
   const BodyVelocity& u = world.bodies.velocity[info.dense];
-  const double dt = static_cast<double>(world.dt);
+  const double dt = static_cast<double>(coming_step(world));
   const double g = static_cast<double>(world.settings.gravity.norm());
   const double a = static_cast<double>(length(info.acceleration)) + g;
   const double way = ever ? 0 : static_cast<double>(length(u.v)) * dt + a * dt * dt;
@@ -72,7 +72,7 @@ struct Reach {
     const double age = effect.memory.age, speed = static_cast<double>(blast.speed);
     const double d = length(r), range = static_cast<double>(blast.range);
     const double until = ever ? (range + static_cast<double>(blast.thickness)) / speed
-                              : age + static_cast<double>(world.dt);
+                              : age + static_cast<double>(coming_step(world));
     const double first = (d - at.around) / speed;
     const double last = (d + at.around + static_cast<double>(blast.thickness)) / speed;
     if (blast.impulse > Real(0) && d - at.around <= range && first <= until && last >= age)

@@ -52,7 +52,9 @@ inline void drift(WorldState& world, std::uint32_t i, Real h) {
   delta.dp += h * velocity.v;
   Rotation q = orientation_now(world, i);
   Vec& L = world.bodies.momentum[i].L;
+  const Vec L_before = L;
   turn(world.settings, world.bodies.mass[i], q, L, h);
+  world.substep[i].L_start += L - L_before;  // what turning changes is not lost to rows
   delta.dq = normalized(q * conjugate(world.bodies.pose[i].q));
   velocity.w = angular_velocity_of(world.bodies.mass[i], q, L);
   world.substep[i].w_in = velocity.w;

@@ -38,8 +38,7 @@ StepList<std::uint8_t> bodies_that_bounce(WorldState& world) {
 bool fits_block(const WorldState& world, const StepList<std::uint8_t>& bounces,
                 const ContactRow<Real>& row) {
   if (!bounces.empty() && (bounces[row.body_a] | bounces[row.body_b]) != 0) return false;
-  if (row.turned != ContactRow<Real>::kNotTurned || row.spun) return false;
-  if (row.restitution > Real(0) || row.turning != ContactRow<Real>::kNoTurning) return false;
+  if (row.watched || row.spun || row.restitution > Real(0)) return false;
   if (world.counts.driven > 0 && world.pairs[world.contacts[row.contact].pair].driven) return false;
   return true;
 }

@@ -115,9 +115,12 @@ struct ContactRow : RowNumbers<T, 4> {
   std::uint32_t body_a = 0, body_b = 0;  // dense; 0: nothing that moves
   std::uint32_t contact = 0;             // index into the world's contacts
   int count = 0;
-  bool in_block = false;  // the wide kernel has it in this step (contact_blocks.h)
-  bool responds = false;  // its responses have been made; in a block the kernel makes them
-  bool spun = false;      // it holds a body that was set spinning within the step
+  bool in_block = false;   // the wide kernel has it in this step (contact_blocks.h)
+  bool responds = false;   // its responses have been made; in a block the kernel makes them
+  bool spun = false;       // it holds a body that was set spinning within the step
+  bool watched = false;    // it is noted what it bears: an effect may be about it (never in_block)
+  bool told_anew = false;  // its bodies had turned when it was told last
+  bool let_go = false;     // as the step began it would have pressed; told anew it did not
 
   Vector3<T> between;  // [m] from A's centre of mass to B's
   bool both_dynamic = false;
@@ -131,10 +134,12 @@ struct ContactRow : RowNumbers<T, 4> {
   bool exact_spheres = false;            // both are spheres about their centres of mass
   T radius_a = T(0), radius_b = T(0);    // [m] then
   T surface_a = T(0), surface_b = T(0);  // [m] radius of the rounded shapes, from core to surface
-  T approach_speed = T(0);               // [m/s] when the step began, largest over the points
-  T cut_unit = T(0);                     // [m/s] |relative acceleration| h: unit of the bounce cuts
-  bool skip = false;                     // a bounce takes care of it in this substep
-  bool keeps_apart = false;              // it bounced off in this substep: approach is stopped
+  T pressed = T(0);          // [N s] watched: the most that it bore in a pass of this step
+  T pressed_anew = T(0);     // [N s] ... since it was told anew
+  T approach_speed = T(0);   // [m/s] when the step began, largest over the points
+  T cut_unit = T(0);         // [m/s] |relative acceleration| h: unit of the bounce cuts
+  bool skip = false;         // a bounce takes care of it in this substep
+  bool keeps_apart = false;  // it bounced off in this substep: approach is stopped
   bool at_rest = false;
   bool bounced = false;  // in this step
   int bounces = 0;       // in this substep

@@ -170,6 +170,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const Vec from_a_to_b = cast<Real>(bodies.pose[row.body_b].x - bodies.pose[row.body_a].x);
   row.between = from_a_to_b;
   row.advance = contact.advance;
+  row.watched = length_squared(row.advance) > Real(0);
   row.arm_a = pair.relative_to_b ? center + (from_a_to_b + contact.advance) : center;
   row.arm_b = pair.relative_to_b ? center : center - (from_a_to_b + contact.advance);
   const bool a_moves = bodies.mass[row.body_a].mass > Real(0);
@@ -263,6 +264,7 @@ void build_turning_rows(WorldState& world) {
     const Pair& pair = world.pairs[world.contacts[row.contact].pair];
     if (!(pair.rolling > Real(0)) && !(pair.torsional > Real(0)) && row.along == Real(1)) continue;
     row.turning = static_cast<std::uint32_t>(world.turning_rows.size());
+    row.watched = true;
     world.turning_rows.push_back(make_turning_row(row, pair.rolling, pair.torsional));
   }
 }

@@ -19,6 +19,7 @@
 #include "motion/body_motion.h"
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
+#include "solver/deep_bodies.h"
 #include "solver/facet_cone.h"
 #include "solver/joints/joint_stages.h"
 #include "solver/newton/newton_solver.h"
@@ -127,10 +128,16 @@ void finish_body(WorldState& world, std::uint32_t i) {
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
-  if (turning_keeps_momentum(world.settings, world.bodies.mass[i]))
+  if (keeps_momentum(rotation_of(world.settings)))
     delta.dq = turned_further(
         delta.dq,
         weight * angular_velocity_of(world.bodies.mass[i], orientation_now(world, i), lost));
+}
+
+void note_resistance(TurningRow<Real>& turning) {
+  turning.resisted = std::max({turning.resisted, turning.k11 * std::abs(turning.impulse1),
+                               turning.k22 * std::abs(turning.impulse2),
+                               turning.k33 * std::abs(turning.impulse3)});
 }
 
 // Rolling and torsional friction of a row that has it, then friction, with a grain if it has one.
@@ -145,6 +152,7 @@ bool rub_within(const Cone& cone, WorldState& world, ContactRow<Real>& row, bool
   TurningRow<Real>& turning = world.turning_rows[row.turning];
   if (first_pass) turning.impulse1 = turning.impulse2 = turning.impulse3 = Real(0);
   const bool turns = solve_turning(row, turning, u);
+  note_resistance(turning);
   solve_friction(row, u, load, sliding, GrainCone<Real, Cone>{cone, row.along});
   return turns;
 }
@@ -164,6 +172,7 @@ struct RowPass {
 RowPass pass_over_row(WorldState& world, ContactRow<Real>& row, Real inverse_h, bool soft,
                       bool first_pass) {
   RowPass pass;
+  if (row.watched) note_pressing(row, load_of(row));
   const auto change = separation_change(row, delta_of_a(world, row), delta_of_b(world, row));
   RowVelocities<Real> u = read_velocities(world, row);
   RowCharge charged(world, row, world.diagnostics.ledger);
@@ -172,6 +181,7 @@ RowPass pass_over_row(WorldState& world, ContactRow<Real>& row, Real inverse_h, 
   pass.turns = rub(world, row, first_pass, u, pass.load, pass.sliding);
   charged.as(&EnergyLedger::friction, u);
   write_velocities(world, row, u);
+  if (row.watched) note_pressing(row, load_of(row));
   return pass;
 }
 
@@ -180,6 +190,12 @@ void relax_row(WorldState& world, ContactRow<Real>& row, Real inverse_h) {
   const RowPass pass = pass_over_row(world, row, inverse_h, false, false);
   // The speeds of what turns ramp as those of what slides.
   note_load(world, row, pass.load, pass.turns ? pass.load : pass.sliding);
+}
+
+// Whether rolling or torsional friction showed in this step.
+bool resisted(const WorldState& world, const ContactRow<Real>& row) {
+  return row.turning != ContactRow<Real>::kNoTurning &&
+         world.turning_rows[row.turning].resisted * world.dt > kVisible;
 }
 
 void store_impulses(WorldState& world) {
@@ -194,6 +210,7 @@ void store_impulses(WorldState& world) {
                      prefetch(world.contacts[world.rows[k + kRowsAhead].contact]);
                    Contact& contact = world.contacts[row.contact];
                    contact.at_rest = row.at_rest;
+                   contact.resisted = resisted(world, row);
                    for (int i = 0; i < row.count; ++i) {
                      const auto& point = row.points[i];
                      contact.normal_impulse[i] = point.impulse;
@@ -209,41 +226,20 @@ void store_impulses(WorldState& world) {
   if (calls.listens()) newton::hear_calls(world, called.data());
 }
 
-bool carried_something(const Contact& contact) {
-  for (int i = 0; i < contact.manifold.count; ++i)
-    if (contact.step_normal_impulse[i] > Real(0)) return true;
-  return false;
-}
-
-// Bodies of which the contacts were relaxed more often: those of the accurate solver need none of
-// it.
-std::uint32_t bodies_relaxed_more(WorldState& world) {
-  StepList<std::uint8_t> relaxed(world.bodies.awake_end, 0, &world.memory);
-  for (const ColorRange color : world.colors)
-    for (std::uint32_t k = color.begin; k < color.end; ++k) {
-      const ContactRow<Real>& row = world.rows[k];
-      for (const std::uint32_t body : {row.body_a, row.body_b})
-        if (world.overlaps_deeply[body] != 0) relaxed[body] = 1;
-    }
-  return static_cast<std::uint32_t>(std::count(relaxed.begin(), relaxed.end(), std::uint8_t{1}));
-}
-
 // Of what was made ready for this step, the report counts what was of use.
 void count_what_acted(WorldState& world) {
   StepReport& report = world.report;
-  if (report.looked_ahead > 0) {
-    report.looked_ahead = 0;
-    for (const Contact& contact : world.contacts)
-      if (length_squared(contact.advance) > Real(0) && carried_something(contact))
-        ++report.looked_ahead;
+  if (report.looked_ahead == 0 && world.turned_rows.empty() && world.spun_rows.empty() &&
+      world.bouncing_rows.empty())
+    return;
+  report.looked_ahead = 0;
+  for (const ContactRow<Real>& row : world.rows) {
+    if (!row.watched) continue;
+    const bool ahead =
+        length_squared(row.advance) > Real(0) && !world.contacts[row.contact].seen_anyway;
+    if (ahead && (row.bounced || shows(world, row, row.pressed))) ++report.looked_ahead;
+    if (telling_showed(world, row)) ++report.fast_turning;
   }
-  report.deep_bodies = world.deep_overlap ? bodies_relaxed_more(world) : 0;
-  // Contacts that pushed after they were last told.
-  const auto count = [&](std::uint32_t row) {
-    if (carried_something(world.contacts[world.rows[row].contact])) ++report.fast_turning;
-  };
-  for (const TurnedRow& turned : world.turned_rows) count(turned.row);
-  for (const std::uint32_t row : world.spun_rows) count(row);
 }
 
 bool flies(const SubstepBody& s, const BodyMass& mass) {
@@ -307,6 +303,7 @@ void run_substeps(WorldState& world) {
   const BlockKernel kernel = world.blocks.kernel;
   BlockPass pass = pass_over_blocks(world);
   PlainBodies bodies(world);
+  DeepBodies deep(world);
   bodies.fly([&](std::uint32_t i) { fly_body(world, i); });
   if (ledger) charge_flight(world);
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
@@ -348,6 +345,7 @@ void run_substeps(WorldState& world) {
     }
     if (newton) solve_newton_islands(world);
     if (ledger) charge(world, &EnergyLedger::normal);
+    deep.note_tumbling();
     bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
     if (ledger) charge_drift(world);
     if (!world.turned_rows.empty()) renew_turned_rows(world);
@@ -367,7 +365,11 @@ void run_substeps(WorldState& world) {
           },
           only_deep);
     };
-    for (int i = 0; i < extra_passes; ++i) relax(false, true);
+    for (int i = 0; i < extra_passes; ++i) {
+      relax(false, true);
+      if (i == 0) deep.note_one_pass();
+    }
+    deep.note_all_passes();
     for (int i = 1; i < iterations; ++i) relax(false, false);
     relax(true, false);
     if (worst_first) resolve_worst_first(world);
@@ -382,6 +384,8 @@ void run_substeps(WorldState& world) {
   empty_blocks(world);
   store_impulses(world);
   count_what_acted(world);
+  world.report.deep_bodies = deep.bodies_that_gained();
+  deep.list_tumblers();
   if (joints) store_joints(world);
   if (newton) report_newton_islands(world);
   world.last_h = world.h;

@@ -1,10 +1,12 @@
 #include "solver/turned_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
 #include "solver/newton/newton_solver.h"
+#include "solver/row_end.h"
 #include "world/forced.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -27,12 +29,47 @@ bool matters(const WorldState& world, std::uint32_t body, Vec core, Vec arm) {
           length_squared(core) > tolerance::kRoundCore * length_squared(arm));
 }
 
+bool has_turned(const BodyDelta& delta) {
+  return length_squared(Vec{delta.dq.x, delta.dq.y, delta.dq.z}) > Real(0);
+}
+// The row has another inertia than when the step began.
+void note_told(const WorldState& world, ContactRow<Real>& row) {
+  row.told_anew =
+      row.told_anew || has_turned(world.delta[row.body_a]) || has_turned(world.delta[row.body_b]);
+}
+
 BodyDelta since(const BodyDelta& now, const BodyDelta& then) {
   return {now.dp - then.dp, Real(0), normalized(now.dq * conjugate(then.dq))};
 }
 
+// Whether the row as the step began would begin to press now, visibly.
+bool would_press(const WorldState& world, const ContactRow<Real>& row) {
+  const BodyDelta &da = world.delta[row.body_a], &db = world.delta[row.body_b];
+  const BodyVelocity& a = world.bodies.velocity[row.body_a];
+  const BodyVelocity& b = world.bodies.velocity[row.body_b];
+  RowVelocities<Real> u{a.v, a.w, b.v, b.w, {}, {}};
+  place_arms(row, da.dp, db.dp, u);
+  const SeparationChange<Real> change = separation_change(row, da, db);
+  const Real u0 = dot(row.n, relative_velocity(u));
+  const Vec w = u.wb - u.wa;
+  const Real u1 = dot(row.t1, w), u2 = dot(row.t2, w);
+  Real closing = 0;  // [m/s] beyond what closes the gap
+  for (int i = 0; i < row.count; ++i) {
+    const auto& point = row.points[i];
+    const Real s = point.separation + change.D0 + point.a * change.E1 + point.b * change.E2;
+    const Real gap = std::max(s, Real(0));
+    closing = std::max(closing, -(u0 + point.b * u1 - point.a * u2 + gap / world.h));
+  }
+  const auto visibly = [&](std::uint32_t body) {
+    return world.substep[body].constrained &&
+           parts_visibly(world.bodies.mass[body], closing * row.n, {0, 0, 0}, world.dt);
+  };
+  return visibly(row.body_a) || visibly(row.body_b);
+}
+
 void renew(WorldState& world, TurnedRow& turned) {
   ContactRow<Real>& row = world.rows[turned.row];
+  row.let_go = row.let_go || would_press(world, turned.as_begun);
   const BodyDelta da = delta_of_a(world, row), db = delta_of_b(world, row);
   const SeparationChange<Real> change = separation_change(row, da, db);
   const bool a_moves = world.substep[row.body_a].constrained;
@@ -65,6 +102,7 @@ void renew(WorldState& world, TurnedRow& turned) {
   if (a_moves) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
   if (b_moves) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
   fill_responses(row);
+  note_told(world, row);
   turned.a = world.delta[row.body_a];
   turned.b = world.delta[row.body_b];
 }
@@ -106,7 +144,8 @@ void find_turned_rows(WorldState& world) {
           !matters(world, row.body_b, row.core_b, row.arm_b))
         continue;
       row.turned = static_cast<std::uint32_t>(world.turned_rows.size());
-      world.turned_rows.push_back({i, world.delta[row.body_a], world.delta[row.body_b]});
+      row.watched = true;
+      world.turned_rows.push_back({i, world.delta[row.body_a], world.delta[row.body_b], row});
     }
 }
 
@@ -115,10 +154,7 @@ void renew_turned_rows(WorldState& world) {
     for (const std::uint32_t body : {world.rows[turned.row].body_a, world.rows[turned.row].body_b})
       if (world.substep[body].turned && !is_isotropic(world.bodies.mass[body]))
         turn_inertia(world, body);
-  for (TurnedRow& turned : world.turned_rows) {
-    renew(world, turned);
-    ++world.report.fast_turning;
-  }
+  for (TurnedRow& turned : world.turned_rows) renew(world, turned);
 }
 
 void renew_bouncing_rows(WorldState& world) {
@@ -147,10 +183,11 @@ void renew_bouncing_rows(WorldState& world) {
   for (const std::uint32_t k : world.bouncing_rows) {
     ContactRow<Real>& row = world.rows[k];
     if (turns[row.body_a] == 0 && turns[row.body_b] == 0) continue;
-    ++world.report.fast_turning;
+    row.watched = true;
     if (turns[row.body_a] != 0) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (turns[row.body_b] != 0) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
+    note_told(world, row);
   }
 }
 
@@ -199,12 +236,44 @@ bool renew_spun_rows(WorldState& world) {
     if (world.substep[i].spun) turn_inertia(world, i);
   for (const std::uint32_t k : world.spun_rows) {
     ContactRow<Real>& row = world.rows[k];
-    ++world.report.fast_turning;
+    row.watched = true;
     if (world.substep[row.body_a].spun) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;
     if (world.substep[row.body_b].spun) row.inverse_inertia_b = world.substep[row.body_b].I_inverse;
     fill_responses(row);
+    note_told(world, row);
   }
   return found;
+}
+
+bool telling_showed(const WorldState& world, const ContactRow<Real>& row) {
+  if (row.let_go) return true;
+  if (!(row.pressed_anew > Real(0))) return false;
+  if (row.turned != ContactRow<Real>::kNotTurned) return shows(world, row, row.pressed_anew);
+  // Arms stayed, and an impulse gives the same momentum whatever inertia rows see: that decides how
+  // large it must be for a velocity.
+  const auto begun = [&](std::uint32_t body, const Symmetric3<Real>& now) {
+    return world.substep[body].constrained
+               ? world_inverse_inertia(world.bodies.mass[body], world.bodies.pose[body].q)
+               : now;
+  };
+  const Symmetric3<Real> then_a = begun(row.body_a, row.inverse_inertia_a);
+  const Symmetric3<Real> then_b = begun(row.body_b, row.inverse_inertia_b);
+  const auto changes = [&](Vec place, Vec d, Real impulse) {
+    const Vec a = cross(row.arm_a + place, d), b = cross(row.arm_b + place, d);
+    const Real turning = dot(a, row.inverse_inertia_a * a) + dot(b, row.inverse_inertia_b * b);
+    const Real before = dot(a, then_a * a) + dot(b, then_b * b);
+    const Vec moving = multiply_each(row.inverse_mass_a + row.inverse_mass_b, d);
+    const Real share = std::abs(turning - before) / (dot(d, moving) + turning);
+    return shows(world, row, share * impulse);
+  };
+  const Real rubs = row.friction * row.pressed_anew;
+  for (int i = 0; i < row.count; ++i) {
+    const Vec place = row.points[i].a * row.t1 + row.points[i].b * row.t2;
+    if (changes(place, row.n, row.pressed_anew) || changes(place, row.t1, rubs) ||
+        changes(place, row.t2, rubs))
+      return true;
+  }
+  return false;
 }
 
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row) {

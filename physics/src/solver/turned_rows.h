@@ -15,6 +15,7 @@ struct WorldState;
 struct TurnedRow {
   std::uint32_t row = 0;
   BodyDelta a, b;
+  ContactRow<Real> as_begun;  // the row when the step began
 };
 
 // [rad/s] of the turning that shows: about the axis of a body of revolution nothing changes.
@@ -34,6 +35,9 @@ void renew_bouncing_rows(WorldState& world);
 // (contact_blocks.h) and see the inertia as of now, by which momentum becomes velocity, in place of
 // the step's start. Returns whether blocks were filled anew. As above, before rows act.
 bool renew_spun_rows(WorldState& world);
+
+// Whether it showed in this step that a row was told anew.
+bool telling_showed(const WorldState& world, const ContactRow<Real>& row);
 
 // Motion of a row's bodies since the row was told.
 BodyDelta delta_of_a(const WorldState& world, const ContactRow<Real>& row);

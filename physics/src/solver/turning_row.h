@@ -19,6 +19,7 @@ struct TurningRow {
   T rolling = T(0), torsional = T(0);                   // [m]
   T k11 = T(0), k12 = T(0), k22 = T(0), k33 = T(0);     // [1/(kg m^2)] response about t1, t2 and n
   T impulse1 = T(0), impulse2 = T(0), impulse3 = T(0);  // [N m s] this substep
+  T resisted = T(0);  // [rad/s] the most that a pass of this step took from the turning
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -1,11 +1,13 @@
 // What the user has forced on or off (WorldSettings::forced), in the terms of the stages that ask.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "motion/body_motion.h"
 #include "plumb/settings.h"
 #include "world/pair_store.h"
+#include "world/visible.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 
@@ -66,17 +68,28 @@ inline bool is_round(const BodyMass& mass) {
   const Real most = larger_of(m.x, larger_of(m.y, m.z));
   return size_of(m.x - m.y) <= kSameMoments * most && size_of(m.y - m.z) <= kSameMoments * most;
 }
-// Whether a body has a gyroscopic term that is forced off.
+// Whether a body has a gyroscopic term that is forced off. Locked axes leave none.
 inline bool lacks_gyroscopic_term(const WorldSettings& settings, const BodyMass& mass) {
-  return settings.forced.off(PlanItem::Gyroscopic) && !is_round(mass);
+  return settings.forced.off(PlanItem::Gyroscopic) && mass.angular_locks == 0 && !is_round(mass);
 }
-// Whether turning leaves the angular momentum as it is.
-inline bool turning_keeps_momentum(const WorldSettings& settings, const BodyMass& mass) {
-  return !lacks_gyroscopic_term(settings, mass) && keeps_momentum(rotation_of(settings));
+// The gyroscopic term is negligible where it turns a body's momentum, seen from the body, by less
+// than this in a step [-], which is little more than rounding does in single precision. What a
+// contact or a joint holds has the momentum that its weight brings about in a step for company.
+inline constexpr Real kSteadyTurn = Real(1e-6);
+// Whether w x I w is much less than that within a substep h [s]: the body turns about a principal
+// axis, or hardly. With nothing to leave out, not a bit changes when the term is forced off.
+inline bool turns_steadily(const WorldSettings& settings, const BodyMass& mass, Rotation q, Vec L,
+                           Real h) {
+  constexpr Real kShare = Real(1.0 / 16) * kSteadyTurn;
+  const Vec w = angular_velocity_of(mass, q, L);
+  const Real time = std::abs(h);
+  const Real g = static_cast<Real>(settings.gravity.norm());
+  const Real company = mass.mass * g * gyration_of(mass) * time;
+  return length(cross(w, L)) * time <= kShare * (length(L) + company);
 }
 // Turns a body that nothing acts on for a time h [s].
 inline void turn(const WorldSettings& settings, const BodyMass& mass, Rotation& q, Vec& L, Real h) {
-  if (lacks_gyroscopic_term(settings, mass)) {
+  if (lacks_gyroscopic_term(settings, mass) && !turns_steadily(settings, mass, q, L, h)) {
     turn_steadily(mass, q, L, h);
   } else {
     turn_freely(rotation_of(settings), mass, q, L, h);

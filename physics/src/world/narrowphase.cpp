@@ -9,6 +9,7 @@
 #include "world/inner_edges.h"
 #include "world/one_way.h"
 #include "world/recycling.h"
+#include "world/seen_anyway.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -154,18 +155,36 @@ void set_back(const Pair& pair, Vec advance, Contact& contact) {
   }
 }
 
+// Whether a contact that looking ahead has found is seen from here as well. What turns fast is told
+// anew within the step where it was (solver/turned_rows.h), and there it would be another contact.
+bool is_seen_anyway(const WorldState& world, const Pair& pair, const Contact& contact,
+                    const Manifold& here) {
+  const BodyInfo &a = world.bodies.info[pair.body_a], &b = world.bodies.info[pair.body_b];
+  const BodyStore& bodies = world.bodies;
+  const auto turns_fast = [&](const BodyInfo& body) {
+    const Real turning = visible_turning(bodies.mass[body.dense], bodies.pose[body.dense].q,
+                                         bodies.velocity[body.dense].w);
+    return world.dt * turning > tolerance::kFastTurn;
+  };
+  if (!(pair.restitution > Real(0)) && (turns_fast(a) || turns_fast(b))) return false;
+  const bool other_moves = (pair.relative_to_b ? a : b).type == MotionType::Dynamic;
+  const Vec carried = other_moves ? contact.advance : Vec{0, 0, 0};
+  return is_seen_anyway(contact.manifold, here, carried, std::min(a.radius, b.radius));
+}
+
 // Appends the contacts of a pair of shapes one of which has parts; each takes over from the same
 // part.
 void collide_pair_of_parts(const WorldState& world, std::uint32_t index, const Pair& pair,
                            const ColliderInfo& a, const Transform& xa, const ColliderInfo& b,
                            const Transform& xb, Real margin, std::vector<Contact>& out) {
-  static thread_local PartManifolds found;  // kept for its storage only
+  static thread_local PartManifolds found, here;  // kept for their storage only
   Transform moved = xb;
   Vec advance{0, 0, 0};
   const bool held = pair.contact_count > 0;
   const bool swept = find_first_touch(world, pair, a, xa, b, xb, moved, advance) &&
                      collide_parts(a.shape, xa, b.shape, moved, margin, found, held);
   if (!swept) collide_parts(a.shape, xa, b.shape, xb, margin, found, held);
+  const bool seen = swept && collide_parts(a.shape, xa, b.shape, xb, margin, here, held);
   const std::span<const Contact> before = contacts_of(pair, world.contacts);
   auto old = before.begin();
   for (const PartManifold& part : found.parts) {
@@ -176,6 +195,10 @@ void collide_pair_of_parts(const WorldState& world, std::uint32_t index, const P
     contact.radius_a = part.radius_a;
     contact.radius_b = part.radius_b;
     if (swept) set_back(pair, advance, contact);
+    const auto same = [&](const PartManifold& other) {
+      return other.part == contact.part && is_seen_anyway(world, pair, contact, other.manifold);
+    };
+    contact.seen_anyway = seen && std::any_of(here.parts.begin(), here.parts.end(), same);
     while (old != before.end() && old->part < contact.part) ++old;
     if (old == before.end() || old->part != contact.part) continue;
     carry_impulses(contact, *old, pair.slop / tolerance::kSlopFraction);
@@ -241,6 +264,9 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
   if (find_first_touch(world, pair, a, xa, b, xb, moved, advance) &&
       collide(a.shape, xa, b.shape, moved, margin, contact.manifold)) {
     set_back(pair, advance, contact);
+    Manifold here;
+    contact.seen_anyway = collide(a.shape, xa, b.shape, xb, margin, here) &&
+                          is_seen_anyway(world, pair, contact, here);
   } else {
     collide(a.shape, xa, b.shape, xb, margin, contact.manifold, &found.memory);
   }

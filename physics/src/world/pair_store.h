@@ -71,8 +71,10 @@ struct Contact {
   // Valid after the step until a pair is changed (WorldState::contacts_fit).
   std::uint32_t seen_from = kNone;
   Real step_normal_impulse[Manifold::kMaxPoints]{};  // [N s] summed over the last step
-  Manifold manifold;     // positions from that body's centre of mass, world axes
-  bool at_rest = false;  // the contact solver, not a bounce, carried it in the last substep
+  Manifold manifold;         // positions from that body's centre of mass, world axes
+  bool at_rest = false;      // the contact solver, not a bounce, carried it in the last substep
+  bool resisted = false;     // rolling or torsional friction showed in the last step
+  bool seen_anyway = false;  // a swept pair's: the one that is seen from where the bodies are
   Real radius_a = 0, radius_b = 0;  // [m] of the rounded shapes that touch; 0 for the others
   // A swept pair's manifold is that of the moment of first touch: B is then this much farther
   // along, seen from A [m], and the separations are those of the step's start again.

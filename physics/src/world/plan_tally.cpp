@@ -11,26 +11,19 @@
 #include "world/far_movers.h"
 #include "world/forced.h"
 #include "world/tolerances.h"
+#include "world/visible.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
 namespace {
 
-// Before the first step: as most scenes are stepped [s].
-constexpr Real kUsualStep = Real(1.0 / 60);
-
-// The gyroscopic term is negligible where it turns a body's momentum, seen from the body, by less
-// than this in a step [-], which is little more than rounding does in single precision. What a
-// contact or a joint holds has the momentum that its weight brings about in a step for company.
-constexpr Real kSteadyTurn = Real(1e-6);
-
 // What overlaps by more than this part of a slop [-] is pushed out by enough to be rubbed.
 constexpr Real kPushedOut = Real(0.1);
 
-bool turns_steadily(const WorldState& world, const BodyInfo& info, bool held, Real dt,
+bool hardly_tumbles(const WorldState& world, const BodyInfo& info, bool held, Real dt,
                     Real gyroscopic_torque) {
   const BodyMass& m = world.bodies.mass[info.dense];
   const Real g = static_cast<Real>(world.settings.gravity.norm()) * std::abs(m.gravity_scale);
-  const Real company = held ? m.mass * g * info.radius * dt : Real(0);
+  const Real company = held ? m.mass * g * gyration_of(m) * dt : Real(0);
   return gyroscopic_torque * dt <=
          kSteadyTurn * (length(world.bodies.momentum[info.dense].L) + company);
 }
@@ -57,12 +50,14 @@ void tally_turning(const WorldState& world, std::uint32_t slot, std::uint8_t hel
     return;
   }
   const Real torque = length(cross(w, L));
-  if (turns_steadily(world, info, held != 0, dt, torque)) {
+  const bool tumbled =
+      std::find(world.tumbled.begin(), world.tumbled.end(), slot) != world.tumbled.end();
+  if (!tumbled && hardly_tumbles(world, info, held != 0, dt, torque)) {
     ++t.steady;
     return;
   }
   ++t.tumbling;
-  t.tilt.note(slot, torque / length(L));
+  t.tilt.note(slot, length(L) > Real(0) ? torque / length(L) : Real(0));
 }
 
 void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& held, Real dt,
@@ -96,16 +91,19 @@ void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& held
 void tally_contacts(const WorldState& world, const Pair& pair, Real dt, PairTally& t) {
   Real pressed = 0;     // [N s]
   bool pushes = false;  // what overlaps is pushed out, even where no impulse is left of it
-  for (const Contact& contact : contacts_of(pair, world.contacts))
+  bool resists = false;
+  for (const Contact& contact : contacts_of(pair, world.contacts)) {
+    resists = resists || contact.resisted;
     for (int i = 0; i < contact.manifold.count; ++i) {
       pressed += contact.step_normal_impulse[i];
       const Real depth = -contact.manifold.points[i].separation;
       if (depth > tolerance::kDeepSlops * pair.slop) ++t.deep;
       pushes = pushes || depth > kPushedOut * pair.slop;
     }
+  }
   if (pair.restitution > Real(0)) ++t.bouncing;
   if (pair.adhesion > Real(0)) ++t.adhesive;
-  if (!(pressed > Real(0)) && !pushes) return;
+  if (!(pressed > Real(0)) && !pushes && !resists) return;
   if (pair.friction > Real(0)) ++t.frictional;
   if (pair.rolling > Real(0) || pair.torsional > Real(0)) ++t.turning;
   if (pair.driven) ++t.driven;
@@ -170,7 +168,7 @@ void tally_joints(const WorldState& world, std::vector<std::uint8_t>& held_at_al
 
 PlanTally tally_plan(const WorldState& world) {
   PlanTally t;
-  t.dt = world.dt > Real(0) ? world.dt : kUsualStep;
+  t.dt = coming_step(world);
   std::vector<std::uint8_t> held(world.bodies.info.size(), 0);  // per slot
   tally_pairs(world, held, t.dt, t.pair);
   tally_joints(world, held, t.joint);

@@ -228,8 +228,7 @@ EffectLedger PhysicsWorld::effect_ledger() const {
       row.step_work += info.memory.step_work;
       row.work += info.memory.work;
     }
-    if (store.scratch != nullptr)
-      row.acted = store.scratch->first[kind + 1] - store.scratch->first[kind];
+    if (store.scratch != nullptr) row.acted = store.scratch->showed[kind];
     ledger.rows.push_back(row);
   }
   return ledger;

@@ -147,6 +147,7 @@ struct WorldState {
   Real last_h = 0;                            // [s] substep to which the remembered impulses belong
   bool deep_overlap = false;                  // some contact of this step begins far inside
   std::vector<std::uint8_t> overlaps_deeply;  // per dense body, only then: whether it has one
+  std::vector<std::uint32_t> tumbled;         // slots: only within the last step (deep_bodies.h)
   Real proxy_dt = 0;                          // [s] step for which the boxes reach ahead
   std::vector<std::uint32_t> row_order;       // contacts by colour
   std::vector<ColorRange> colors;
@@ -202,6 +203,11 @@ inline void parallel_for(const WorldState& world, std::uint32_t count, std::uint
   } else {
     world.jobs->parallel_for(count, grain, task);
   }
+}
+
+// [s] The next step, as far as is known: as the last one, before the first as most scenes' are.
+inline Real coming_step(const WorldState& world) {
+  return world.dt > Real(0) ? world.dt : Real(1.0 / 60);
 }
 
 // --- bodies (world/body_mass.cpp, body_motion.h) ---

@@ -87,11 +87,10 @@ bool stays_off_limits(const JointRow& row, const FreeRow& free, Real h) {
 // Whether the motion of a group can be undone: nothing damps, rubs, drives or hits.
 bool is_reversible(const WorldState& world, const JointPiece& piece, Real h) {
   const JointScratch& scratch = *world.joints.scratch;
-  bool reversible = true;
+  bool reversible = keeps_momentum(rotation_of(world.settings));
   for_bodies(scratch, piece, [&](std::uint32_t i) {
     const BodyForce& force = world.bodies.force[i];
-    reversible = reversible && turning_keeps_momentum(world.settings, world.bodies.mass[i]) &&
-                 force.linear_damping == Real(0) && force.angular_damping == Real(0);
+    reversible = reversible && force.linear_damping == Real(0) && force.angular_damping == Real(0);
   });
   for (std::uint32_t i = piece.begin; i < piece.end && reversible; ++i) {
     const JointBlock& block = scratch.blocks[i];
