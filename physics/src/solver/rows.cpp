@@ -214,6 +214,10 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
     };
     row.path_room = tolerance::kArmRoom *
                     std::min(room(of_a.gyration, row.follow_a), room(of_b.gyration, row.follow_b));
+    // ... and lies on its surface, not half-way through what they overlap: it rolls by its radius.
+    const Vec to_round = (row.follow_a - row.follow_b) * half_gap;
+    row.arm_a += to_round;
+    row.arm_b += to_round;
   } else {
     // Against what does not yield a body acts with its own surface, wherever the other one's is.
     row.arm_a -= half_gap;
