@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/measure.h"
+#include "support/random.h"
 #include "support/scenes.h"
 
 namespace plumb::inline PLUMB_ABI {
@@ -57,19 +58,31 @@ BodyId add_top(PhysicsWorld& world, const Vector3d& w) {
 
 // Reference case F6: w = (0.1, 10, 0); quarter period 1.037730488233 s, then every half period.
 TEST(FreeRotation, F6_FlipsComeAtTheirTimes) {
+  constexpr int kAttitudes = 24;
   for (double h : {1.0 / 60, 1.0 / 120}) {
-    PhysicsWorld world(no_gravity());
-    const BodyId top = add_top(world, {0.1, 10, 0});
-    const std::vector<double> times = flip_times(world, top, 10, h);
-    ASSERT_EQ(times.size(), 5u);
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      // Single precision: each step turns the attitude by about 1e-7 rad of rounding, 1e-5 of the
-      // perturbation that the flips grow from, and it is the perturbation that sets the period.
-      // Wanted in single precision: 2e-3; measured 3.1e-3 at the fifth flip.
-      EXPECT_NEAR(times[i], 1.037730488233 + 2.075460976467 * static_cast<double>(i),
-                  bar(1e-6, 5e-3))
-          << "flip " << i << " step " << h;
+    testing_support::Random random(3);
+    Eigen::Matrix<double, 5, 1> mean = Eigen::Matrix<double, 5, 1>::Zero();
+    for (int k = 0; k < kAttitudes; ++k) {
+      PhysicsWorld world(no_gravity());
+      const Quat R = random.rotation(k == 0 ? 0 : kPi);
+      RigidBody body = free_body(1, kMoments);
+      body.pose.orientation = R;
+      body.angular_velocity = R * vec(0.1, 10, 0);
+      const BodyId top = must(world.create_body(body));
+      const std::vector<double> times = flip_times(world, top, 10, h);
+      ASSERT_EQ(times.size(), 5u);
+      for (int i = 0; i < 5; ++i) {
+        const double late =
+            times[static_cast<std::size_t>(i)] - (1.037730488233 + 2.075460976467 * i);
+        // Single precision: each step turns the attitude by about 1e-7 rad of rounding, 1e-5 of the
+        // perturbation that the flips grow from, and it is the perturbation that sets the period:
+        // 9e-3 s (rms) at the fifth flip; four times that is here. Wanted: 2e-3.
+        EXPECT_NEAR(late, 0, bar(1e-6, 3.5e-2)) << "flip " << i << " step " << h;
+        mean[i] += late / kAttitudes;
+      }
     }
+    // What is not by chance shows in the mean.
+    EXPECT_LE(mean.cwiseAbs().maxCoeff(), bar(1e-6, 5e-3)) << mean.transpose() << " step " << h;
   }
 }
 

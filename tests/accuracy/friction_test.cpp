@@ -238,6 +238,43 @@ TEST(Friction, C6_RollingOnTheLevelLosesNothing) {
   EXPECT_NEAR(position(world, ball).z(), 0, bar(1e-9, 1e-4));
 }
 
+// A ball on a board that is pulled from under it, on a floor without friction: without slip the
+// board's acceleration is F/(M + 2/7 m), and the ball's 2/7 of it. However far the board moves in a
+// step, the contact stays below the ball: off its middle its weight would drive it, by an amount of
+// first order in the step.
+TEST(Friction, C6_BallOnABoardThatIsPulledAwayRolls) {
+  const double R = 0.5, m = 1, M = 1000, F = 5000;  // heavy, so as not to tilt under the ball
+  const double board_right = F / (M + 2 * m / 7), ball_right = 2 * board_right / 7;
+  for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    PhysicsWorld world(no_sleep());
+    Material smooth = material(0);
+    smooth.friction_rule = CombineRule::Minimum;
+    add_floor(world, smooth);
+    const auto make = [&](const Pose& pose, double mass, double moment, const Shape& shape) {
+      RigidBody body = body_at(pose);
+      MassProperties properties;
+      properties.mass = real(mass);
+      properties.I_Bcm_B = Eigen::Matrix3d::Identity() * moment;
+      body.mass = properties;
+      return add(world, body, with(shape, material(0.8)));
+    };
+    const BodyId board = make(at(0, R, 0), M, 1e5, box(20, R, 20));
+    const BodyId ball = make(at(0, 3 * R, 0), m, 0.4 * m * R * R, sphere(R));
+    const auto pull = [&](double seconds) {
+      for (int i = 0; i < static_cast<int>(std::lround(seconds / dt)); ++i) {
+        must(world.apply_force(board, vec(F, 0, 0)));
+        world.step(dt);
+      }
+    };
+    pull(0.5);  // the first steps load the contact
+    const double board_before = velocity(world, board).x(), ball_before = velocity(world, ball).x();
+    pull(2);
+    const double tolerance = bar(1e-6, 1e-4);  // [-]
+    EXPECT_NEAR((velocity(world, board).x() - board_before) / 2 / board_right, 1, tolerance) << dt;
+    EXPECT_NEAR((velocity(world, ball).x() - ball_before) / 2 / ball_right, 1, tolerance) << dt;
+  }
+}
+
 TEST(Friction, RulesOfCombinationAreObeyed) {
   const auto deceleration = [](CombineRule rule, double a, double b) {
     PhysicsWorld world(no_sleep());

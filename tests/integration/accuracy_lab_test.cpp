@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -162,17 +163,22 @@ TEST(AccuracyLab, PublishedFiguresAreDrawnUnderOurs) {
   EXPECT_EQ(cases, 6);  // rolling twice, bouncing, 666, elastic 666, Kapla
 }
 
-// SimBenchmark's rolling scene in every direction alike: a cone, no pyramid. Its velocities are of
-// first order in the step, as all that rolls (C6): 1.3e-2 m^2/s^2 at 1/60 s, where 1e-12 is asked
-// for.
+// SimBenchmark's rolling scene in every direction alike: a cone, no pyramid. What is left at 1/60
+// s, 7e-4 m/s (rms) where 1e-6 is asked for, is mostly the plate, which sinks and tilts under the
+// balls by what contacts give way: 5e-4 m/s at any step. The accurate solver's contacts do not.
 TEST(AccuracyLab, RollingIsTheSameAlongTheAxisAndAcross) {
   const CellCode* code = cells_of(Precision::F64);
   ASSERT_NE(code, nullptr);
   const Readings along = code->run("rolling", {}), across = code->run("rolling60", {});
   ASSERT_TRUE(along.finite && across.finite);
-  EXPECT_LT(along.values[0], 0.12);
-  EXPECT_LT(across.values[0], 0.12);
-  EXPECT_NEAR(along.values[0], across.values[0], 0.02 * along.values[0]);
+  EXPECT_LT(along.values[0], 1e-3);
+  EXPECT_LT(across.values[0], 1e-3);
+  EXPECT_NEAR(along.values[0], across.values[0], 1e-4);
+  Knobs accurate;
+  const std::vector<std::string>& names = solver_names();
+  accurate.solver =
+      static_cast<int>(std::find(names.begin(), names.end(), "Newton") - names.begin());
+  EXPECT_LT(code->run("rolling", accurate).values[0], 1e-6);
 }
 
 // Names are unique, and none is that of a family: a word on the command line means one thing.

@@ -43,7 +43,7 @@ double rounding_of_step(Quaternion<T> R, Vector3<T> L, Vector3<T> J, T h) {
   const T size = length(L);
   const T tumble =
       std::sqrt(tumble_squared(normalized_or(inverse_rotate(R, L), L), (h * size) * J));
-  const T pieces = std::ceil(tumble / SeriesChoice<T>::kLongLimit);
+  const T pieces = std::ceil(tumble / PieceChoice<T>::kLimit);
   const T turn = size * std::max(J.x, std::max(J.y, J.z)) * std::abs(h);
   return static_cast<double>(std::numeric_limits<T>::epsilon() * (4 + 4 * pieces + 4 * turn));
 }
@@ -83,24 +83,56 @@ TYPED_TEST(RotationFlow, IsExactForRandomBodiesAtAnyStepLength) {
 }
 
 // Middle axis 2; on the separatrix n1^2 (J1 - J2) = n3^2 (J2 - J3). The worst case for the series.
+Top top_near_the_separatrix(Random& random) {
+  const Vec64 any = random.moments();
+  std::array<double, 3> I{any.x, any.y, any.z};
+  std::sort(I.begin(), I.end());
+  const double slope = std::sqrt((1 / I[0] - 1 / I[1]) / (1 / I[1] - 1 / I[2]));
+  const double n2 = 2 * random.uniform(random.engine) - 1;
+  const double n1 = std::sqrt((1 - n2 * n2) / (1 + slope * slope));
+  const double off = std::pow(10.0, -1 - 9 * random.uniform(random.engine));
+  Top top;
+  top.J = {1 / I[0], 1 / I[1], 1 / I[2]};
+  top.R = random.attitude();
+  top.L = rotate(top.R, I[0] * Vec64{n1 * (1 + off), n2, n1 * slope});
+  return top;
+}
 TYPED_TEST(RotationFlow, IsExactNextToTheSeparatrix) {
   using T = TypeParam;
   Random random(2);
   for (int i = 0; i < 100; ++i) {
-    const Vec64 any = random.moments();
-    std::array<double, 3> I{any.x, any.y, any.z};
-    std::sort(I.begin(), I.end());
-    const double slope = std::sqrt((1 / I[0] - 1 / I[1]) / (1 / I[1] - 1 / I[2]));
-    const double n2 = 2 * random.uniform(random.engine) - 1;
-    const double n1 = std::sqrt((1 - n2 * n2) / (1 + slope * slope));
-    const double off = std::pow(10.0, -1 - 9 * random.uniform(random.engine));
-    Top top;
-    top.J = {1 / I[0], 1 / I[1], 1 / I[2]};
-    top.R = random.attitude();
-    top.L = rotate(top.R, I[0] * Vec64{n1 * (1 + off), n2, n1 * slope});
+    const Top top = top_near_the_separatrix(random);
     const double h = 0.05 + 2 * random.uniform(random.engine);
     expect_exact(cast_quaternion<T>(top.R), cast<T>(top.L), cast<T>(top.J), static_cast<T>(h));
   }
+}
+
+// What the sigma functions and the quadrature leave out, seen in wider numbers: at the limit of a
+// piece less than the round-off of the type that they are cut for.
+TYPED_TEST(RotationFlow, OnePieceLeavesOutLessThanRoundOff) {
+  using T = TypeParam;
+  Random random(6);
+  const auto sine_and_cosine = [](Real80 a, Real80& s, Real80& c) {
+    s = std::sin(a);
+    c = std::cos(a);
+  };
+  double worst = 0;
+  int looked_at = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Top top = i % 2 == 0 ? top_near_the_separatrix(random)
+                               : top_of(random.moments(), random.spin(), random.attitude());
+    const auto L = cast<Real80>(inverse_rotate(top.R, top.L));
+    const Vector3<Real80> n = (1 / length(L)) * L, J = cast<Real80>(top.J);
+    const Real80 tumble = std::sqrt(tumble_squared(n, J));
+    const Vector3<Real80> g = (static_cast<Real80>(PieceChoice<T>::kLimit) / tumble) * J;
+    if (length(multiply_each(g, n)) > 10) continue;  // [rad] what hardly tumbles turns too far
+    ++looked_at;
+    const auto turn = midpoint_turn<T>(n, Real80(0.5) * g, sine_and_cosine);
+    const Quaternion<Real80> start{0, 0, 0, 1};
+    worst = std::max(worst, angle_between(turn, reference_turn(start, n, g, 1)));
+  }
+  EXPECT_GT(looked_at, 300);
+  EXPECT_LE(worst, static_cast<double>(std::numeric_limits<T>::epsilon()));
 }
 
 // An axis about which the body cannot turn has J = 0, and the rest may be no real body's moments.
@@ -177,27 +209,34 @@ struct Motion {
 class LongMotion : public ::testing::TestWithParam<Motion> {};
 
 TEST_P(LongMotion, KeepsEnergyAndAttitude) {
+  constexpr int kAttitudes = 8;
   const Motion& motion = GetParam();
-  Top top = top_of(motion.I, motion.spin, {0.1, -0.2, 0.3, 0.9});
-  const Top start = top;
-  const double energy = start.energy();
   const int steps = static_cast<int>(std::lround(motion.time / motion.step));
-  double worst = 0;
-  for (int i = 0; i < steps; ++i) {
-    top.advance(motion.step);
-    worst = std::max(worst, std::abs(top.energy() / energy - 1));
-  }
-  EXPECT_LE(worst, 1e-12);
   const Real80 time = static_cast<Real80>(motion.step) * steps;
+  Random random(7);
+  double squares = 0;
+  for (int k = 0; k < kAttitudes; ++k) {
+    Top top =
+        top_of(motion.I, motion.spin, k == 0 ? Quat64{0.1, -0.2, 0.3, 0.9} : random.attitude());
+    const Top start = top;
+    const double energy = start.energy();
+    double worst = 0;
+    for (int i = 0; i < steps; ++i) {
+      top.advance(motion.step);
+      worst = std::max(worst, std::abs(top.energy() / energy - 1));
+    }
+    EXPECT_LE(worst, 1e-12);
+    EXPECT_NEAR(length_squared(Vec64{top.R.x, top.R.y, top.R.z}) + top.R.w * top.R.w, 1, 1e-15);
+    const double error = angle_between(top.R, reference_turn(start.R, start.L, start.J, time));
+    squares += error * error;
+  }
   // Each rounding of the attitude tilts n, which the spread of moments makes into a wrong rate of
   // eps |w| I_max/I_min; they add up as a random walk over the steps and act for the whole time.
   const double spread = std::max(motion.I.x, std::max(motion.I.y, motion.I.z)) /
                         std::min(motion.I.x, std::min(motion.I.y, motion.I.z));
   const double tolerance = std::numeric_limits<double>::epsilon() * std::sqrt(steps) *
                            (1 + 4 * spread * length(motion.spin) * motion.time);
-  const double error = angle_between(top.R, reference_turn(start.R, start.L, start.J, time));
-  EXPECT_LE(error, tolerance);
-  EXPECT_NEAR(length_squared(Vec64{top.R.x, top.R.y, top.R.z}) + top.R.w * top.R.w, 1, 1e-15);
+  EXPECT_LE(std::sqrt(squares / kAttitudes), tolerance);
 }
 INSTANTIATE_TEST_SUITE_P(
     RotationFlow, LongMotion,
@@ -266,14 +305,23 @@ double time_of_zero(Top& top, double& clock) {
 
 TEST(RotationFlow, MiddleAxisFlipsTwelveTimesOnTime) {
   constexpr double kFlip = 2.075460976466924;  // [s]
-  Top top = top_of({1, 2, 3}, {0.1, 10, 0});
-  double clock = 0;
-  for (int flip = 0; flip < 12; ++flip) {
-    // Rounding changes w1/|w| = 1e-2 by 2e-16 a step, a share of 2e-14; after 1500 steps 1e-12 if
-    // it adds up as a random walk, 3e-11 if it does not; each of 12 flips is off by that
-    // over 5.8/s.
-    EXPECT_NEAR(time_of_zero(top, clock), (flip + 0.5) * kFlip, 5e-11) << "flip " << flip;
+  constexpr int kAttitudes = 24;
+  Random random(4);
+  std::array<double, 12> mean{};
+  for (int k = 0; k < kAttitudes; ++k) {
+    Top top = top_of({1, 2, 3}, {0.1, 10, 0}, k == 0 ? Quat64{0, 0, 0, 1} : random.attitude());
+    double clock = 0;
+    for (std::size_t flip = 0; flip < mean.size(); ++flip) {
+      const double late = time_of_zero(top, clock) - (static_cast<double>(flip) + 0.5) * kFlip;
+      // Each step rounds the energy by 4e-17 of it, of which the perturbation is a share of 2.5e-5:
+      // 6e-11 of that after 1500 steps as a random walk, with half of which over 5.8/s, twice a
+      // flip, the flips are off; 6e-11 s in all. Four times that happens once in 16,000 attitudes.
+      EXPECT_NEAR(late, 0, 2.5e-10) << "flip " << flip;
+      mean[flip] += late / kAttitudes;
+    }
   }
+  // What is not by chance shows in the mean.
+  for (const double late : mean) EXPECT_NEAR(late, 0, 5e-11);
 }
 
 TEST(RotationFlow, FirstFlipFollowsThePerturbation) {
@@ -332,10 +380,10 @@ TEST(RotationFlow, SymmetricTopPrecessesAndSpinsAtTheRatesOfTheTextbook) {
       const Vec64 expected =
           c * axis_start + s * cross(l, axis_start) + ((1 - c) * dot(l, axis_start)) * l;
       EXPECT_LE(length(rotate(top.R, e) - expected), 1e-12);
-      // The series gives the same as the closed form.
-      Quat64 series = R0;
-      for (int i = 0; i < 600; ++i) advance_asymmetric(series, top.L, top.J, kTick);
-      EXPECT_LE(angle_between(series, {top.R.x, top.R.y, top.R.z, top.R.w}), 1e-12);
+      // The way of asymmetric bodies gives the same.
+      Quat64 general = R0;
+      for (int i = 0; i < 600; ++i) advance_asymmetric(general, top.L, top.J, kTick);
+      EXPECT_LE(angle_between(general, {top.R.x, top.R.y, top.R.z, top.R.w}), 1e-12);
     }
   }
 }
@@ -366,7 +414,7 @@ struct Lanes {
   }
 };
 
-TEST(RotationFlow, SeriesGivesTheSameBitsInEveryLane) {
+TEST(RotationFlow, OnePieceGivesTheSameBitsInEveryLane) {
   Random random(5);
   Vector3<Lanes> n{}, g{};
   std::array<Quat64, 4> expected{};
@@ -380,10 +428,10 @@ TEST(RotationFlow, SeriesGivesTheSameBitsInEveryLane) {
       set_component(n, axis, a);
       set_component(g, axis, b);
     }
-    expected[lane] = series_turn<8>(direction, turn, sin_cos<double>);
+    expected[lane] = midpoint_turn<double>(direction, turn, sin_cos<double>);
   }
   const Quaternion<Lanes> q =
-      series_turn<8>(n, g, [](Lanes a, Lanes& s, Lanes& c) { sin_cos(a, s, c); });
+      midpoint_turn<double>(n, g, [](Lanes a, Lanes& s, Lanes& c) { sin_cos(a, s, c); });
   for (std::size_t lane = 0; lane < 4; ++lane) {
     EXPECT_EQ(q.x.v[lane], expected[lane].x);
     EXPECT_EQ(q.y.v[lane], expected[lane].y);

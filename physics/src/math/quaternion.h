@@ -1,6 +1,8 @@
 // Unit quaternions as rotations: v_W = rotate(R_WB, v_B).
 #pragma once
 
+#include <array>
+
 #include "math/vector3.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -23,7 +25,7 @@ constexpr Quaternion<T> conjugate(Quaternion<T> q) {
 template <class T>
 constexpr Vector3<T> rotate(Quaternion<T> q, Vector3<T> v) {
   const Vector3<T> u{q.x, q.y, q.z};
-  const Vector3<T> t = T(2) * cross(u, v);
+  const Vector3<T> c = cross(u, v), t = c + c;
   return v + q.w * t + cross(u, t);
 }
 template <class T>
@@ -78,15 +80,28 @@ void sin_cos(T a, T& s, T& c) {
 inline constexpr Real kSmallAngle = Real(0.8);  // [rad]
 template <class T>
 void sin_cos_of_small(T a, T& s, T& c) {
-  constexpr int kTerms = sizeof(Real) == 4 ? 6 : 10;
-  const T x2 = a * a;
-  T odd = T(1), even = T(1);
-  for (int k = kTerms; k >= 1; --k) {
-    odd = T(1) - T(Real(1) / static_cast<Real>(2 * k * (2 * k + 1))) * x2 * odd;
-    even = T(1) - T(Real(1) / static_cast<Real>((2 * k - 1) * 2 * k)) * x2 * even;
-  }
-  s = a * odd;
-  c = even;
+  constexpr int kTerms = sizeof(Real) == 4 ? 5 : 8;  // the next one is below 1e-3 ulp
+  constexpr auto kTaylor = [] {  // 1/2!, 1/3! ... with the signs of their series
+    std::array<Real, 2 * kTerms> out{};
+    double factor = 1;
+    for (int k = 0; k < 2 * kTerms; ++k) {
+      factor /= k + 2;
+      out[static_cast<std::size_t>(k)] = static_cast<Real>(k / 2 % 2 == 0 ? -factor : factor);
+    }
+    return out;
+  }();
+  const T x2 = a * a, x4 = x2 * x2, x8 = x4 * x4;
+  // From k = i: two by two, so that little waits for what comes before.
+  const auto series = [&](std::size_t i) {
+    const auto two = [&](std::size_t k) { return T(kTaylor[k]) + x2 * T(kTaylor[k + 2]); };
+    if constexpr (kTerms == 5) {
+      return x2 * ((two(i) + x4 * two(i + 4)) + x8 * T(kTaylor[i + 8]));
+    } else {
+      return x2 * ((two(i) + x4 * two(i + 4)) + x8 * (two(i + 8) + x4 * two(i + 12)));
+    }
+  };
+  s = a + a * series(1);
+  c = T(Real(1)) + series(0);
 }
 // The rotation by |v| radians about v (exponential map).
 template <class T>

@@ -160,8 +160,8 @@ Wide<R, W> root_of(Wide<R, W> a) {
 
 // --- records to lanes and back -------------------------------------------------------------------
 
-// Four numbers from each of W records, turned so that each of the four becomes one Wide. Record i
-// begins at base + index[i] * stride.
+// Four numbers from each of W records, turned so that each of the four becomes one Wide. Where the
+// four of lane i begin is told by at(i).
 template <class R, int W>
 struct Quad {
   Wide<R, W> x, y, z, w;
@@ -199,36 +199,38 @@ typename Lanes<R, 4>::Reals load(const R* from) {
   return v;
 }
 // The quads of lanes k, k + 4, k + 8 ... behind one another.
-template <class R, int W>
-typename Lanes<R, W>::Reals row(const R* base, std::size_t stride, const std::uint32_t* index) {
+template <class R, int W, class At>
+typename Lanes<R, W>::Reals row(At& at, int k) {
   if constexpr (W == 4) {
-    return load(base + *index * stride);
+    return load<R>(at(k));
   } else {
-    const auto a = row<R, W / 2>(base, stride, index);
-    const auto b = row<R, W / 2>(base, stride, index + W / 2);
+    const auto a = row<R, W / 2>(at, k), b = row<R, W / 2>(at, k + W / 2);
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
       return __builtin_shufflevector(a, b, static_cast<int>(I)...);
     }(std::make_index_sequence<static_cast<std::size_t>(W)>());
   }
 }
-template <class R, int W>
-void store(const typename Lanes<R, W>::Reals& v, int group, R* to) {
-  std::memcpy(to, reinterpret_cast<const R*>(&v) + 4 * group, 4 * sizeof(R));
+// Lanes 4 Group to 4 Group + 3.
+template <class R, int W, int Group>
+void store(const typename Lanes<R, W>::Reals& v, R* to) {
+  const typename Lanes<R, 4>::Reals four =
+      __builtin_shufflevector(v, v, 4 * Group, 4 * Group + 1, 4 * Group + 2, 4 * Group + 3);
+  std::memcpy(to, &four, sizeof four);
 }
 
 }  // namespace quads
 
-template <class R, int W>
-Quad<R, W> gather_quad(const R* base, std::size_t stride, const std::uint32_t* index) {
+template <class R, int W, class At>
+Quad<R, W> read_quad(At at) {
   Quad<R, W> out;
   if constexpr (W >= 4) {
     typename Lanes<R, W>::Reals r[4];
-    for (int k = 0; k < 4; ++k) r[k] = quads::row<R, W>(base, stride, index + k);
+    for (int k = 0; k < 4; ++k) r[k] = quads::row<R, W>(at, k);
     quads::transpose<R, W>(r);
     out = {Wide<R, W>(r[0]), Wide<R, W>(r[1]), Wide<R, W>(r[2]), Wide<R, W>(r[3])};
   } else {
     for (int i = 0; i < W; ++i) {
-      const R* record = base + index[i] * stride;
+      const R* record = at(i);
       out.x.v[i] = record[0];
       out.y.v[i] = record[1];
       out.z.v[i] = record[2];
@@ -238,23 +240,55 @@ Quad<R, W> gather_quad(const R* base, std::size_t stride, const std::uint32_t* i
   return out;
 }
 // Writes the records whose bit is set in `which`.
-template <class R, int W>
-void scatter_quad(const Quad<R, W>& in, R* base, std::size_t stride, const std::uint32_t* index,
-                  std::uint32_t which) {
+template <class R, int W, class At>
+void write_quad(const Quad<R, W>& in, At at, std::uint32_t which) {
   if constexpr (W >= 4) {
     typename Lanes<R, W>::Reals r[4] = {in.x.v, in.y.v, in.z.v, in.w.v};
     quads::transpose<R, W>(r);
-    for (int i = 0; i < W; ++i)
-      if ((which >> i & 1u) != 0) quads::store<R, W>(r[i % 4], i / 4, base + index[i] * stride);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      const auto put = [&]<int i>() {
+        if ((which >> i & 1u) != 0) quads::store<R, W, i / 4>(r[i % 4], at(i));
+      };
+      (put.template operator()<static_cast<int>(I)>(), ...);
+    }(std::make_index_sequence<static_cast<std::size_t>(W)>());
   } else {
     for (int i = 0; i < W; ++i) {
       if ((which >> i & 1u) == 0) continue;
-      R* record = base + index[i] * stride;
+      R* record = at(i);
       record[0] = in.x.v[i];
       record[1] = in.y.v[i];
       record[2] = in.z.v[i];
       record[3] = in.w.v[i];
     }
+  }
+}
+
+// Record i begins at base + index[i] * stride.
+template <class R, int W>
+Quad<R, W> gather_quad(const R* base, std::size_t stride, const std::uint32_t* index) {
+  return read_quad<R, W>([=](int i) { return base + index[i] * stride; });
+}
+template <class R, int W>
+void scatter_quad(const Quad<R, W>& in, R* base, std::size_t stride, const std::uint32_t* index,
+                  std::uint32_t which) {
+  write_quad(
+      in, [=](int i) { return base + index[i] * stride; }, which);
+}
+
+// Records behind one another, from `base` on.
+template <class R, int W>
+Quad<R, W> read_run(const R* base, std::size_t stride) {
+  return read_quad<R, W>([=](int i) { return base + static_cast<std::size_t>(i) * stride; });
+}
+template <class R, int W>
+void write_run(const Quad<R, W>& in, R* base, std::size_t stride, std::uint32_t which) {
+  const auto at = [=](int i) { return base + static_cast<std::size_t>(i) * stride; };
+  constexpr std::uint32_t kAll = (1u << W) - 1u;
+  // Most often all of them: no question per record then.
+  if (which == kAll) {
+    write_quad(in, at, kAll);
+  } else {
+    write_quad(in, at, which);
   }
 }
 

@@ -1,5 +1,5 @@
-// Free rotation by Jacobi's elliptic functions, for comparison with the Taylor series of
-// rotation_flow.h, whose notation this file shares (n, g, b in units of the step).
+// Free rotation by Jacobi's elliptic functions, for comparison with rotation_flow.h, whose
+// notation this file shares (n, g, b in units of the step).
 //
 // Direction. n' = n x (g * n) is solved by sn, cn, dn [DLMF 22.13]. No phase has to be found: by
 // their addition theorems [DLMF 22.8], with c the axis about which n circulates, b the middle one
@@ -117,7 +117,7 @@ inline constexpr GaussNode kGauss[] = {{0.013046735741414139961, 0.0333356721543
                                        {0.283302302935376404600, 0.134633359654998177546},
                                        {0.425562830509184394557, 0.147762112357376435087}};
 
-// The turn over one piece, as series_turn gives it.
+// The turn over one piece, in the body's axes at its start; not a unit quaternion.
 template <class T>
 Quaternion<T> jacobi_turn(Vector3<T> n0, Vector3<T> g) {
   const JacobiDirection<T> direction(n0, g);

@@ -31,38 +31,30 @@ inline constexpr Real kHuge = std::numeric_limits<Real>::max();
 // powers would be denormal numbers, which take processors many times as long.
 inline constexpr Real kNoTurn = std::numeric_limits<Real>::epsilon() / Real(64);
 
-// Turns q by the torque-free flow, where one series does; elsewhere q is left as it is. Returns
-// where it was turned (rotation_flow.h has the limits).
+// Turns q by the torque-free flow, where one piece does; elsewhere q is left as it is. Returns
+// where it was turned (midpoint_turn.h has the limit).
 template <class T>
-MaskOf<T> turn_by_series(Quaternion<T>& q, Vector3<T> L, Vector3<T> J, T h) {
-  using Choice = SeriesChoice<Real>;
-  const T largest = larger_of(size_of(L.x), larger_of(size_of(L.y), size_of(L.z)));
-  const MaskOf<T> turns = largest * (larger_of(J.x, larger_of(J.y, J.z)) * size_of(h)) > T(kNoTurn);
-  if (!any(turns)) return negate(turns) & (largest < T(kHuge));
-  const T divisor = select(turns, largest, T(1));
-  const Vector3<T> scaled{L.x / divisor, L.y / divisor, L.z / divisor};
-  const T scaled_length = length(scaled);
-  const T size = largest * scaled_length;
-  const Vector3<T> direction = (T(1) / select(turns, scaled_length, T(1))) * scaled;
-  const Vector3<T> g = (h * size) * J;
+MaskOf<T> turn_by_one_piece(Quaternion<T>& q, Vector3<T> L, Vector3<T> J, T h) {
+  constexpr Real kLimit = PieceChoice<Real>::kLimit;
+  // [rad]: L scaled so that its square is far from under- and overflow where it turns the body. A
+  // step backwards is one forwards about -L.
+  const T J_largest = larger_of(J.x, larger_of(J.y, J.z));
+  const Vector3<T> scaled = (J_largest * h) * L;
+  const T largest = larger_of(size_of(scaled.x), larger_of(size_of(scaled.y), size_of(scaled.z)));
+  const MaskOf<T> turns = largest > T(kNoTurn);
+  const MaskOf<T> rests = negate(turns) & (largest < T(kHuge));
+  if (!any(turns)) return rests;
+  const T turn = length(scaled);
+  const Vector3<T> direction = (T(Real(1)) / select(turns, turn, T(Real(1)))) * scaled;
+  const Vector3<T> g = ((T(Real(0.5)) * turn) / select(turns, J_largest, T(Real(1)))) * J;
   const Vector3<T> n = inverse_rotate(q, direction);
-  const T tumble = tumble_squared(n, g);
-  const T half_turn = T(Real(0.5)) * size_of(dot(n, multiply_each(g, n)));
   // The enclosed angle is small against the turn itself: a tenth is room enough.
-  const MaskOf<T> small = negate(half_turn > T(Real(0.9) * kSmallAngle));
-  const MaskOf<T> is_short = negate(tumble > T(Choice::kShortLimit * Choice::kShortLimit));
-  const MaskOf<T> is_long = negate(tumble > T(Choice::kLongLimit * Choice::kLongLimit));
-  Quaternion<T> turn = series_turn<Choice::kShortOrder>(n, g, sin_cos_of_small<T>);
-  if (!all(is_short | negate(small & is_long))) {
-    const Quaternion<T> longer = series_turn<Choice::kLongOrder>(n, g, sin_cos_of_small<T>);
-    turn = {select(is_short, turn.x, longer.x), select(is_short, turn.y, longer.y),
-            select(is_short, turn.z, longer.z), select(is_short, turn.w, longer.w)};
-  }
-  const Quaternion<T> turned = normalized(q * turn);
-  const MaskOf<T> takes = turns & small & is_long;
+  const MaskOf<T> takes = turns & (dot(n, multiply_each(g, n)) < T(Real(0.9) * kSmallAngle)) &
+                          (tumble_squared(n, g) < T(kLimit * kLimit / Real(4)));
+  const Quaternion<T> turned = normalized(q * midpoint_turn<Real>(n, g, sin_cos_of_small<T>));
   q = {select(takes, turned.x, q.x), select(takes, turned.y, q.y), select(takes, turned.z, q.z),
        select(takes, turned.w, q.w)};
-  return (negate(turns) & (largest < T(kHuge))) | takes;
+  return rests | takes;
 }
 
 // Known forces act for a time h. `a` [m/s^2], `torque` [N m].
@@ -83,7 +75,7 @@ void collect_lanes(BodyLanes<T>& b, const Symmetric3<T>& I, Vector3<T> w_in) {
 template <class T>
 MaskOf<T> drift_lanes(BodyLanes<T>& b, T h) {
   Quaternion<T> q = b.dq * b.start;
-  const MaskOf<T> done = turn_by_series(q, b.L, b.J, h);
+  const MaskOf<T> done = turn_by_one_piece(q, b.L, b.J, h);
   b.dp += h * b.v;
   b.dq = normalized(q * conjugate(b.start));
   b.w = turn_rate_of(b.J, q, b.L);
@@ -122,7 +114,7 @@ MaskOf<T> fly_lanes(BodyLanes<T>& b, Quaternion<T>& q, Vector3<T> a, Vector3<T> 
   b.v += dt * a;
   b.L += half * torque;
   q = b.start;
-  const MaskOf<T> done = turn_by_series(q, b.L, b.J, dt);
+  const MaskOf<T> done = turn_by_one_piece(q, b.L, b.J, dt);
   b.L += half * torque;
   b.w = turn_rate_of(b.J, q, b.L);
   b.dq = q * conjugate(b.start);

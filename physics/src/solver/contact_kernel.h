@@ -26,20 +26,19 @@ struct DeltaOf {
   Quaternion<T> dq;
 };
 
-// The arms now. Two dynamic bodies act on each other at one common point, half-way between where
-// each has carried its own: only so do they keep their angular momentum, whatever they slid
-// meanwhile.
+// The arms now. Two dynamic bodies act on each other at one common point, between where each has
+// carried its own: only so do they keep their angular momentum, whatever they slid meanwhile.
 template <class Row, class T>
 inline void place_arms(const Row& row, Vector3<T> dp_a, Vector3<T> dp_b, RowVelocities<T>& u) {
   // Arms much longer than those that the responses were computed with would make energy without
   // end: where bodies fly past each other within a step, their angular momentum is not kept.
   const auto within = [&](T x) {
-    return select(x > row.arm_room, row.arm_room, select(x < -row.arm_room, -row.arm_room, x));
+    return select(x > row.path_room, row.path_room, select(x < -row.path_room, -row.path_room, x));
   };
-  const Vector3<T> path = row.common_point * (dp_b - dp_a - row.advance);
-  const Vector3<T> half{within(path.x), within(path.y), within(path.z)};
-  u.arm_a = row.arm_a + half;
-  u.arm_b = row.arm_b - half;
+  const Vector3<T> moved = dp_b - dp_a - row.advance;
+  const Vector3<T> path{within(moved.x), within(moved.y), within(moved.z)};
+  u.arm_a = row.arm_a + row.follow_a * path;
+  u.arm_b = row.arm_b - row.follow_b * path;
 }
 
 // Applies the wrench (force impulse P at c, torque impulse M) to B and its opposite to A.

@@ -81,10 +81,11 @@ struct RowNumbers {
   Symmetric3<T> inverse_inertia_a, inverse_inertia_b;
   Symmetric3<T> K_normal, K_friction;
   Vector3<T> drive{};  // [m/s, m/s, rad/s] of B's surface over A's, added to (x, y, z)
-  // 1/2 when both bodies are dynamic: then the arms follow them to one common point. Else 0.
-  T common_point = T(0);
-  T arm_room = T(0);  // [m] by which they follow at most, along each axis (place_arms)
-  T friction = T(0);  // [-]
+  // [-] Shares of the path between the bodies by which the arms follow them to one common point
+  // (share_path). Their sum is 1 where both bodies are dynamic, else 0.
+  T follow_a = T(0), follow_b = T(0);
+  T path_room = T(0);  // [m] of path that they follow at most, along each axis (place_arms)
+  T friction = T(0);   // [-]
   T bias_rate = T(0), mass_scale = T(1), impulse_scale = T(0);
   // What these are where the points cannot be solved at once (choose_softness).
   T mass_scale_in_turn = T(1), impulse_scale_in_turn = T(0);

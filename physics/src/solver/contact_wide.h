@@ -144,14 +144,16 @@ void relax_rows(const BlockPass& pass, const BlockHead& head) {
 class Bodies {
  public:
   Bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which)
-      : pass_(pass), which_(which) {
-    for (int i = 0; i < kLanes; ++i) index_[i] = first + static_cast<std::uint32_t>(i);
-    const auto v = velocity(0), w = velocity(4);
+      : pass_(pass),
+        first_(first),
+        which_(which),
+        velocity_(read(pass.velocity, 8)),
+        spin_(read(pass.velocity + 4, 8)) {
     const auto L = read(pass.momentum, 4), J = read(pass.mass + 4, 12);
     const auto p = read(pass.delta, 8), dq = read(pass.delta + 4, 8);
     const auto q = read(pass.orientation, pass.pose_stride);
-    lanes = {{v.x, v.y, v.z},          {w.x, w.y, w.z},      {L.x, L.y, L.z}, {p.x, p.y, p.z},
-             {dq.x, dq.y, dq.z, dq.w}, {q.x, q.y, q.z, q.w}, {J.x, J.y, J.z}};
+    lanes = {three(velocity_),         three(spin_),         three(L), three(p),
+             {dq.x, dq.y, dq.z, dq.w}, {q.x, q.y, q.z, q.w}, three(J)};
   }
   BodyLanes<Number> lanes;
 
@@ -166,54 +168,54 @@ class Bodies {
   }
 
   void write_start() const {
-    write(lanes.v, stiffness(), pass_.substep, 32);
+    write(lanes.v, read(pass_.substep, 32).w, pass_.substep, 32);  // the stiffness stays
     write(lanes.L, Number(0), pass_.substep + 4, 32);
   }
   void write_w_in() const { write(lanes.w, Number(0), pass_.substep + 8, 32); }
   // Only bodies of `which` from here on.
   void keep(std::uint32_t which) { which_ &= which; }
   void write_momentum() const { write(lanes.L, Number(0), pass_.momentum, 4); }
-  void write_velocity() const {
-    write(lanes.v, velocity(0).w, pass_.velocity, 8);
-    write(lanes.w, velocity(4).w, pass_.velocity + 4, 8);
-  }
-  void write_velocity_without_load() const {
-    write(lanes.v, Number(0), pass_.velocity, 8);
-    write(lanes.w, Number(0), pass_.velocity + 4, 8);
-  }
+  void write_velocity() const { write_velocity(velocity_.w, spin_.w); }
+  void write_velocity_without_load() const { write_velocity(Number(0), Number(0)); }
   void write_delta() const {
     write(lanes.dp, Number(0), pass_.delta, 8);
-    scatter_quad<Real, kLanes>({lanes.dq.x, lanes.dq.y, lanes.dq.z, lanes.dq.w}, pass_.delta + 4, 8,
-                               index_, which_);
+    write(lanes.dq, pass_.delta + 4, 8);
   }
   void write_orientation(const Quaternion<Number>& q) const {
-    scatter_quad<Real, kLanes>({q.x, q.y, q.z, q.w}, pass_.orientation, pass_.pose_stride, index_,
-                               which_);
+    write(q, pass_.orientation, pass_.pose_stride);
   }
 
  private:
   [[nodiscard]] Quad<Real, kLanes> read(const Real* base, std::size_t stride) const {
-    return gather_quad<Real, kLanes>(base, stride, index_);
+    return read_run<Real, kLanes>(base + first_ * stride, stride);
   }
   [[nodiscard]] static Vector3<Number> three(const Quad<Real, kLanes>& q) {
     return {q.x, q.y, q.z};
   }
-  [[nodiscard]] Quad<Real, kLanes> velocity(std::size_t at) const {
-    return read(pass_.velocity + at, 8);
-  }
   [[nodiscard]] Vector3<Number> of_substep(std::size_t at) const {
     return three(read(pass_.substep + at, 32));
   }
-  [[nodiscard]] Number stiffness() const { return read(pass_.substep, 32).w; }
+  void write_velocity(Number load, Number sliding) const {
+    write(lanes.v, load, pass_.velocity, 8);
+    write(lanes.w, sliding, pass_.velocity + 4, 8);
+  }
+  void write(const Quaternion<Number>& q, Real* base, std::size_t stride) const {
+    write_run<Real, kLanes>({q.x, q.y, q.z, q.w}, base + first_ * stride, stride, which_);
+  }
   void write(const Vector3<Number>& a, Number fourth, Real* base, std::size_t stride) const {
-    scatter_quad<Real, kLanes>({a.x, a.y, a.z, fourth}, base, stride, index_, which_);
+    write({a.x, a.y, a.z, fourth}, base, stride);
   }
 
   const BodyPass& pass_;
+  std::size_t first_;
   std::uint32_t which_;
-  std::uint32_t index_[kLanes];
+  Quad<Real, kLanes> velocity_, spin_;  // with the loads
 };
 
+// Each of these is one stretch of arithmetic on registers: calls in it would pass them by memory.
+#define PLUMB_ONE_STRETCH [[gnu::flatten]]
+
+PLUMB_ONE_STRETCH
 void kick_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {
   Bodies bodies(pass, first, which);
   bodies.write_start();
@@ -223,6 +225,7 @@ void kick_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which)
   bodies.write_w_in();
 }
 
+PLUMB_ONE_STRETCH
 std::uint32_t drift_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {
   Bodies bodies(pass, first, which);
   collect_lanes(bodies.lanes, bodies.inertia(), bodies.w_in());
@@ -235,6 +238,7 @@ std::uint32_t drift_bodies(const BodyPass& pass, std::uint32_t first, std::uint3
   return which & ~done;
 }
 
+PLUMB_ONE_STRETCH
 void finish_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which,
                    const Real* weight) {
   Bodies bodies(pass, first, which);
@@ -246,6 +250,7 @@ void finish_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t whic
   bodies.write_delta();
 }
 
+PLUMB_ONE_STRETCH
 std::uint32_t fly_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {
   Bodies bodies(pass, first, which);
   Quaternion<Number> q;

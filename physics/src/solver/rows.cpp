@@ -128,6 +128,30 @@ Real rolling_surface(const WorldState& world, std::uint32_t slot, Real radius, V
                         inverse_rotate(collider.in_body.q, normal));
 }
 
+// [m] Radius of a surface that is round at a contact; 0 of one that is flat or sharp, or of parts.
+Real roundness(const CollisionShape& shape, Real surface) {
+  if (shape.type == ShapeType::Sphere || shape.type == ShapeType::Capsule) return surface;
+  return is_curved(shape.type) && surface > shape.radius ? surface : Real(0);
+}
+
+// How two dynamic bodies share the path between them (place_arms). A contact goes with the centre
+// of what is round: a ball keeps it below itself, however far the board it rolls on is pulled along
+// meanwhile; anywhere else its own weight would drive it. Two round surfaces share the path as
+// their radii. What is flat or sharp tells nothing of it: half each.
+void share_path(const WorldState& world, const Pair& pair, ContactRow<Real>& row) {
+  const auto round = [&](std::uint32_t collider, Real surface) {
+    return roundness(world.colliders.info[collider].shape, surface);
+  };
+  const Real a = round(pair.collider_a(), row.surface_a);
+  const Real b = round(pair.collider_b(), row.surface_b);
+  if (a > Real(0) && b > Real(0)) {
+    row.follow_a = a / (a + b);
+  } else {
+    row.follow_a = b > Real(0) ? Real(1) : (a > Real(0) ? Real(0) : Real(0.5));
+  }
+  row.follow_b = Real(1) - row.follow_a;
+}
+
 // Turns the contact's axes so that t1 lies along the grain. A grain that stands on the contact
 // plane leaves friction round.
 void align_with_grain(const WorldState& world, const Pair& pair, ContactRow<Real>& row) {
@@ -176,9 +200,7 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   const bool a_moves = bodies.mass[row.body_a].mass > Real(0);
   const bool b_moves = bodies.mass[row.body_b].mass > Real(0);
   row.both_dynamic = a_moves && b_moves;
-  row.common_point = row.both_dynamic ? Real(0.5) : Real(0);
   const RowBody of_a = context.body(row.body_a), of_b = context.body(row.body_b);
-  row.arm_room = tolerance::kArmRoom * std::min(of_a.gyration, of_b.gyration);
   Real gap = 0;  // between the surfaces, when the manifold was made
   for (int i = 0; i < row.count; ++i)
     gap += contact.manifold.points[i].separation - contact.advanced_gap;
@@ -191,7 +213,18 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   }
   row.core_a = row.arm_a - half_gap - row.surface_a * row.n;
   row.core_b = row.arm_b + half_gap + row.surface_b * row.n;
-  if (!row.both_dynamic) {
+  if (row.both_dynamic) {
+    share_path(world, pair, row);
+    const auto room = [](Real gyration, Real follow) {
+      return follow > Real(0) ? gyration / follow : std::numeric_limits<Real>::max();
+    };
+    row.path_room = tolerance::kArmRoom *
+                    std::min(room(of_a.gyration, row.follow_a), room(of_b.gyration, row.follow_b));
+    // ... and lies on its surface, not half-way through what they overlap: it rolls by its radius.
+    const Vec to_round = (row.follow_a - row.follow_b) * half_gap;
+    row.arm_a += to_round;
+    row.arm_b += to_round;
+  } else {
     // Against what does not yield a body acts with its own surface, wherever the other one's is.
     row.arm_a -= half_gap;
     row.arm_b += half_gap;

@@ -89,7 +89,7 @@ void renew(WorldState& world, TurnedRow& turned) {
   const Vec on_a = row.core_a + row.surface_a * row.n;
   const Vec on_b = row.core_b - row.surface_b * row.n;
   if (row.both_dynamic) {
-    row.arm_a = Real(0.5) * (on_a + from_a_to_b + on_b);
+    row.arm_a = row.follow_b * on_a + row.follow_a * (from_a_to_b + on_b);
     row.arm_b = row.arm_a - from_a_to_b;
   } else if (a_moves) {
     row.arm_a = on_a;

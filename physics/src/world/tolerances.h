@@ -6,8 +6,9 @@
 
 namespace plumb::inline PLUMB_ABI::detail::tolerance {
 
-// How far the arms of a contact between two dynamic bodies follow their motion within a step, in
-// smaller radii of gyration [-]: their response stays below twice the one it was solved for.
+// How far an arm of a contact between two dynamic bodies follows their motion within a step, in the
+// smallest radii of gyration of its body [-]: its response stays below twice the one it was solved
+// for.
 inline constexpr Real kArmRoom = Real(0.5);
 
 // Overlap that a resting contact keeps, as a fraction of the smaller body's smallest thickness [-].

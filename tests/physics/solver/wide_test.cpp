@@ -86,7 +86,7 @@ TEST(Wide, TheShortFlowIsTheExactFlowWhereItTakesABody) {
     const Vec J = k % 3 == 0 ? Vec{1, 1, 1} : Vec{moment(), moment(), moment()};
     const Vec L{real(w.x()), real(w.y()), real(w.z())};
     const Real h = real(1.0 / 240);
-    if (!turn_by_series(q, L, J, h)) {
+    if (!turn_by_one_piece(q, L, J, h)) {
       EXPECT_EQ(q.x, exact.x);
       EXPECT_EQ(q.w, exact.w);
       continue;
