@@ -241,7 +241,7 @@ Quad<R, W> read_quad(At at) {
 }
 // Writes the records whose bit is set in `which`.
 template <class R, int W, class At>
-void write_quad(const Quad<R, W>& in, At at, std::uint32_t which) {
+void write_some(const Quad<R, W>& in, At at, std::uint32_t which) {
   if constexpr (W >= 4) {
     typename Lanes<R, W>::Reals r[4] = {in.x.v, in.y.v, in.z.v, in.w.v};
     quads::transpose<R, W>(r);
@@ -263,16 +263,38 @@ void write_quad(const Quad<R, W>& in, At at, std::uint32_t which) {
   }
 }
 
+template <class R, int W, class At>
+void write_quad(const Quad<R, W>& in, At at, std::uint32_t which) {
+  constexpr std::uint32_t kAll = (1u << W) - 1u;
+  // Most often all of them: no question per record then.
+  if (which == kAll) {
+    write_some(in, at, kAll);
+  } else {
+    write_some(in, at, which);
+  }
+}
+
 // Record i begins at base + index[i] * stride.
 template <class R, int W>
 Quad<R, W> gather_quad(const R* base, std::size_t stride, const std::uint32_t* index) {
   return read_quad<R, W>([=](int i) { return base + index[i] * stride; });
 }
+// One loop with one question, unlike write_quad: which records are written differs from call to
+// call, and a question at sixteen places is guessed wrong more often.
 template <class R, int W>
 void scatter_quad(const Quad<R, W>& in, R* base, std::size_t stride, const std::uint32_t* index,
                   std::uint32_t which) {
-  write_quad(
-      in, [=](int i) { return base + index[i] * stride; }, which);
+  if constexpr (W >= 4) {
+    typename Lanes<R, W>::Reals r[4] = {in.x.v, in.y.v, in.z.v, in.w.v};
+    quads::transpose<R, W>(r);
+    for (int i = 0; i < W; ++i)
+      if ((which >> i & 1u) != 0)
+        std::memcpy(base + index[i] * stride, reinterpret_cast<const R*>(&r[i % 4]) + i / 4 * 4,
+                    4 * sizeof(R));
+  } else {
+    write_some(
+        in, [=](int i) { return base + index[i] * stride; }, which);
+  }
 }
 
 // Records behind one another, from `base` on.
@@ -282,14 +304,8 @@ Quad<R, W> read_run(const R* base, std::size_t stride) {
 }
 template <class R, int W>
 void write_run(const Quad<R, W>& in, R* base, std::size_t stride, std::uint32_t which) {
-  const auto at = [=](int i) { return base + static_cast<std::size_t>(i) * stride; };
-  constexpr std::uint32_t kAll = (1u << W) - 1u;
-  // Most often all of them: no question per record then.
-  if (which == kAll) {
-    write_quad(in, at, kAll);
-  } else {
-    write_quad(in, at, which);
-  }
+  write_quad(
+      in, [=](int i) { return base + static_cast<std::size_t>(i) * stride; }, which);
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail
