@@ -108,7 +108,8 @@ void turn_freely(RotationMethod method, const BodyMass& m, Rotation& q, Vec& L, 
   }
   switch (method) {
     case RotationMethod::Exact:
-      if (!turn_by_one_piece(q, L, m.inverse_moments, h)) advance_rotation(q, L, m.inverse_moments, h);
+      if (!turn_by_one_piece(q, L, m.inverse_moments, h))
+        advance_rotation(q, L, m.inverse_moments, h);
       return;
     case RotationMethod::Jacobi:
       advance_jacobi(q, L, m.inverse_moments, h);
