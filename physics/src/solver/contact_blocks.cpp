@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "math/vector_bits.h"
 #include "math/wide.h"
 #include "solver/row_responses.h"
 #include "world/tolerances.h"
@@ -182,16 +183,10 @@ void for_blocks(WorldState& world, Task&& task) {
 
 BlockKernel choose_block_kernel(int bits) {
   if (bits > 0 && bits < 128) return {};
-#if defined(__x86_64__) || defined(__i386__)
-  const bool has_512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                       __builtin_cpu_supports("avx512dq");
-  // The first processors with vectors of 512 bits lower their clock for them; those that came after
-  // know VBMI2 as well.
-  if (has_512 && (bits >= 512 || (bits == 0 && __builtin_cpu_supports("avx512vbmi2"))))
-    return block_kernel_512();
-  if ((bits == 0 || bits >= 256) && __builtin_cpu_supports("avx2")) return block_kernel_256();
-#endif
-  return block_kernel_128();
+  const int chosen = vector_bits(bits);
+  return chosen == 512   ? block_kernel_512()
+         : chosen == 256 ? block_kernel_256()
+                         : block_kernel_128();
 }
 
 void fill_blocks(WorldState& world) {

@@ -100,13 +100,20 @@ void expect_best(Random& random, const PlacedPolyhedron& a, const PlacedPolyhedr
   }
 }
 
+struct RandomPair {
+  double size;  // [m]
+  CollisionShape a, b;
+  explicit RandomPair(Random& random)
+      : size(random.scale(1e-2, 1e2)),
+        a(random_polyhedron(random, size)),
+        b(random_polyhedron(random, size * random.scale(0.2, 1))) {}
+};
+
 TEST(PolyhedraAxes, AreTheBestOfAll) {
   Random random(29);
   Counts counts;
   for (int pair = 0; pair < 400; ++pair) {
-    const double size = random.scale(1e-2, 1e2);
-    const CollisionShape a = random_polyhedron(random, size);
-    const CollisionShape b = random_polyhedron(random, size * random.scale(0.2, 1));
+    const auto [size, a, b] = RandomPair(random);
     const PlacedPolyhedron placed_a(a);
     for (int i = 0; i < 10; ++i) {
       const Rotation q = random.rotation();
@@ -127,9 +134,7 @@ TEST(PolyhedraAxes, AreTheBestOfAllInSlightContact) {
   Random random(31);
   Counts counts;
   for (int pair = 0; pair < 400; ++pair) {
-    const double size = random.scale(1e-2, 1e2);
-    const CollisionShape a = random_polyhedron(random, size);
-    const CollisionShape b = random_polyhedron(random, size * random.scale(0.2, 1));
+    const auto [size, a, b] = RandomPair(random);
     const PlacedPolyhedron placed_a(a);
     const Rotation q = random.rotation();
     const V way = random.direction();

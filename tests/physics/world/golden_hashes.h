@@ -17,7 +17,7 @@ struct GoldenHash {
 inline constexpr GoldenHash kGoldenHashes[] = {
     {0x60833bb369f8de9a, 0x8807dc9b89bde38e, 0xbbac923318561296},  // stack
     {0x3737bea91d640919, 0x92a121380dcacb50, 0xdbca8403e8d04df0},  // pyramid
-    {0x4e83bfefa5917563, 0xd6cbbe37173658e3, 0x6188fcab1fbef8be},  // pile
+    {0x1d0b6eeffa74b333, 0xd6cbbe37173658e3, 0x6188fcab1fbef8be},  // pile
     {0x8f8ac0508cb2d150, 0xf1883ca5fcc0de4, 0xa648dd5562ad2f83},   // cluster
     {0x8dfdf6d8b5706ee8, 0x2c5a2db840264a47, 0x8241986aad681c6a},  // bouncing
     {0x4352d96a2e91dbcc, 0xf471cd5d290ba38d, 0x9b0a791994f93acc},  // bridge
