@@ -15,14 +15,14 @@ struct GoldenHash {
   }
 };
 inline constexpr GoldenHash kGoldenHashes[] = {
-    {0x60833bb369f8de9a, 0x8807dc9b89bde38e, 0xbbac923318561296},  // stack
-    {0x3737bea91d640919, 0x92a121380dcacb50, 0xdbca8403e8d04df0},  // pyramid
-    {0x1d0b6eeffa74b333, 0xd6cbbe37173658e3, 0x6188fcab1fbef8be},  // pile
-    {0x8f8ac0508cb2d150, 0xf1883ca5fcc0de4, 0xa648dd5562ad2f83},   // cluster
-    {0x8dfdf6d8b5706ee8, 0x2c5a2db840264a47, 0x8241986aad681c6a},  // bouncing
-    {0x4352d96a2e91dbcc, 0xf471cd5d290ba38d, 0x9b0a791994f93acc},  // bridge
+    {0x60833bb369f8de9a, 0x2bd36ed0a48b4769, 0xa52f343422bdb3bc},  // stack
+    {0x3737bea91d640919, 0x54f70c2653e842bc, 0x397827038f40ef64},  // pyramid
+    {0x1d0b6eeffa74b333, 0xeb693c31b35f5482, 0xa0290bbce52e801c},  // pile
+    {0x8f8ac0508cb2d150, 0xdd161c8933d55e53, 0xe7f975ef7c74567a},  // cluster
+    {0x8dfdf6d8b5706ee8, 0x9b4ded355a69da4, 0x2b06a648695912e8},   // bouncing
+    {0x4352d96a2e91dbcc, 0x54adeb4f6732d4a9, 0x31c942ecabee8c7d},  // bridge
     {0xc4aa68e0fd281ace, 0xb53692fa70a59a41, 0x93209a701aad2c3e},  // hills
-    {0x27bb8b95c4fe25bd, 0x57e1223490b56f80, 0x46f59f0703b362c4},  // heavy above light
+    {0x27bb8b95c4fe25bd, 0x57e1223490b56f80, 0x2cdb39e9da1542b1},  // heavy above light
 };
 
 }  // namespace plumb::inline PLUMB_ABI
