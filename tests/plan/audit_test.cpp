@@ -17,6 +17,7 @@ constexpr std::uint32_t kScenes = 27;  // each part comes first three times
 // the tolerance is finer, what is missed as well.
 const std::vector<KnownToErr> kKnown = {{PlanItem::RollingFriction, 32, 3, 0},
                                         {PlanItem::FastTurns, 32, 2, 0},
+                                        {PlanItem::FastTurns, 64, 1, 0},
                                         {PlanItem::LookAhead, 64, 0, 2},
                                         {PlanItem::RollingFriction, 64, 0, 10}};
 

@@ -140,7 +140,7 @@ Real roundness(const CollisionShape& shape, Real surface) {
 // their radii. What is flat or sharp tells nothing of it: half each.
 void share_path(const WorldState& world, const Pair& pair, ContactRow<Real>& row) {
   const auto round = [&](std::uint32_t collider, Real surface) {
-    return roundness(world.colliders.info[collider].shape, surface);
+    return surface > Real(0) ? roundness(world.colliders.info[collider].shape, surface) : Real(0);
   };
   const Real a = round(pair.collider_a(), row.surface_a);
   const Real b = round(pair.collider_b(), row.surface_b);
