@@ -76,13 +76,13 @@ TEST(FreeRotation, F6_FlipsComeAtTheirTimes) {
             times[static_cast<std::size_t>(i)] - (1.037730488233 + 2.075460976467 * i);
         // Single precision: each step turns the attitude by about 1e-7 rad of rounding, 1e-5 of the
         // perturbation that the flips grow from, and it is the perturbation that sets the period:
-        // 9e-3 s (rms) at the fifth flip; four times that is here. Wanted: 2e-3.
-        EXPECT_NEAR(late, 0, bar(1e-6, 3.5e-2)) << "flip " << i << " step " << h;
+        // 9e-3 s (rms) at the fifth flip, 2.27e-2 the latest here: a frontier. Wanted: 2e-3.
+        EXPECT_NEAR(late, 0, bar(1e-6, 2.3e-2)) << "flip " << i << " step " << h;
         mean[i] += late / kAttitudes;
       }
     }
     // What is not by chance shows in the mean.
-    EXPECT_LE(mean.cwiseAbs().maxCoeff(), bar(1e-6, 5e-3)) << mean.transpose() << " step " << h;
+    EXPECT_LE(mean.cwiseAbs().maxCoeff(), bar(1e-6, 3e-3)) << mean.transpose() << " step " << h;
   }
 }
 

@@ -227,8 +227,8 @@ TEST(Demos, Fracture) {
 }
 
 // The ragdoll falls and its joints stay within 1 cm. How its limbs strike the ground hangs on the
-// last digit of the start: of sixteen starts that differ by 1e-5 m/s, two may pull a joint farther
-// (23 of 24 that were measured did not, the worst by 1.1 cm), none of them beyond 2 cm.
+// last digit of the start: of sixteen starts that differ by 1e-5 m/s, one pulls a joint farther,
+// by 1.1 cm. That is a frontier, not the bar: it may only become smaller.
 TEST(Demos, Ragdoll) {
   int farther = 0;
   for (int k = 0; k < 16; ++k) {
@@ -243,11 +243,11 @@ TEST(Demos, Ragdoll) {
         worst = std::max(worst, static_cast<double>(demo.world.joint_state(joint.id).linear_error));
     }
     farther += worst < 0.01 ? 0 : 1;
-    EXPECT_LT(worst, 0.02) << k;
+    EXPECT_LT(worst, 0.012) << k;
     EXPECT_LT(demo.at("torso").y(), 0.6) << k;
     EXPECT_LT(demo.world.energy().kinetic_linear, 5) << k;
   }
-  EXPECT_LE(farther, 2);
+  EXPECT_LE(farther, 1);
 }
 
 }  // namespace

@@ -127,12 +127,12 @@ TEST(Chains, ALevelChainFallsAndSwingsWithoutLoss) {
     const Chain::Worst worst = chain.fall(10, kDt);
     EXPECT_LE(worst.gap, bar(1e-6, 1e-4)) << k;
     EXPECT_LE(worst.rise, 0.01) << k;
-    // Single precision loses up to 0.14; in double 22 of 24 starts lost less than 0.02.
-    EXPECT_GE(worst.left, bar(-0.05, -0.2)) << k;
+    // A frontier: in double one of the nine loses 0.0219, single precision up to 0.145.
+    EXPECT_GE(worst.left, bar(-0.022, -0.15)) << k;
     left.push_back(worst.left);
   }
   std::nth_element(left.begin(), left.begin() + 4, left.end());
-  EXPECT_GE(left[4], bar(-0.02, -0.14));  // wanted: -0.02
+  EXPECT_GE(left[4], bar(-0.02, -0.14));  // wanted: -0.02; -0.0031, -0.132 (f32), -0.0051 (f32d)
 }
 
 TEST(Chains, ATenfoldEndIsCarriedThroughItsFall) {
