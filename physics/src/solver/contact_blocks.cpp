@@ -6,6 +6,7 @@
 #include "math/vector_bits.h"
 #include "math/wide.h"
 #include "solver/row_responses.h"
+#include "solver/step_groups.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -23,25 +24,11 @@ constexpr std::size_t reals_of(int points) {
 // Below this many rows a block is not worth its empty lanes.
 constexpr std::size_t kFewestRows = 2;
 
-// Bounces look at all rows of the bodies that may bounce, and change them.
-StepList<std::uint8_t> bodies_that_bounce(WorldState& world) {
-  StepList<std::uint8_t> bounces(&world.memory);
-  if (world.bouncing_rows.empty()) return bounces;
-  bounces.assign(world.bodies.awake_end, 0);
-  for (const std::uint32_t k : world.bouncing_rows) {
-    const ContactRow<Real>& row = world.rows[k];
-    if (world.substep[row.body_a].constrained) bounces[row.body_a] = 1;
-    if (world.substep[row.body_b].constrained) bounces[row.body_b] = 1;
-  }
-  return bounces;
-}
-
-bool fits_block(const WorldState& world, const StepList<std::uint8_t>& bounces,
-                const ContactRow<Real>& row) {
+bool fits_block(const WorldState& world, const ContactRow<Real>& row) {
+  // Bounces look at all rows of the bodies that may bounce, and change them.
+  const std::vector<std::uint8_t>& bounces = world.groups.bounces;
   if (!bounces.empty() && (bounces[row.body_a] | bounces[row.body_b]) != 0) return false;
-  if (row.watched || row.spun || row.restitution > Real(0)) return false;
-  if (world.counts.driven > 0 && world.pairs[world.contacts[row.contact].pair].driven) return false;
-  return true;
+  return is_plain(world, row) && !row.spun;
 }
 
 const Real* numbers_of(const ContactRow<Real>& row) {
@@ -85,28 +72,36 @@ void for_lanes(std::vector<Row>& rows, const BlockHead& head, std::size_t lanes,
 
 class Sorter {
  public:
-  explicit Sorter(WorldState& world)
-      : world_(world), blocks_(world.blocks), bounces_(bodies_that_bounce(world)) {}
+  Sorter(WorldState& world, StepGroup& group) : world_(world), group_(group) {}
 
   void sort() {
     blocks_.heads.clear();
     blocks_.loose.clear();
     blocks_.colors.clear();
     reals_ = 0;
-    for (const ColorRange color : world_.colors) sort_color(color);
+    const std::vector<std::uint32_t>& rows = group_.rows;
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+      // The colours are ranges of the rows one behind the other.
+      const auto color = std::upper_bound(
+          world_.colors.begin(), world_.colors.end(), rows[begin],
+          [](std::uint32_t row, const ColorRange& range) { return row < range.end; });
+      if (color == world_.colors.end()) break;  // what the passes leave to others has none
+      while (end < rows.size() && rows[end] < color->end) ++end;
+      sort_color(&rows[begin], &rows[begin] + (end - begin));
+    }
     blocks_.numbers.resize((reals_ * sizeof(Real) + sizeof(ContactBlocks::Line) - 1) /
                            sizeof(ContactBlocks::Line));
   }
 
  private:
-  void sort_color(ColorRange color) {
+  void sort_color(const std::uint32_t* begin, const std::uint32_t* end) {
     ContactBlocks::Color& sorted = blocks_.colors.emplace_back();
     sorted.heads.begin = heads();
     sorted.loose.begin = loose();
-    if (world_.deep_overlap) sort_rows(color, true);
+    if (world_.deep_overlap) sort_rows(begin, end, true);
     sorted.deep_heads = heads();
     sorted.deep_loose = loose();
-    sort_rows(color, false);
+    sort_rows(begin, end, false);
     sorted.heads.end = heads();
     sorted.loose.end = loose();
   }
@@ -121,14 +116,14 @@ class Sorter {
            (world_.overlaps_deeply[row.body_a] | world_.overlaps_deeply[row.body_b]) != 0;
   }
 
-  void sort_rows(ColorRange color, bool deep) {
-    for (std::uint32_t i = color.begin; i < color.end; ++i) {
-      ContactRow<Real>& row = world_.rows[i];
+  void sort_rows(const std::uint32_t* begin, const std::uint32_t* end, bool deep) {
+    for (const std::uint32_t* k = begin; k != end; ++k) {
+      const ContactRow<Real>& row = world_.rows[*k];
       if (is_deep(row) != deep) continue;
-      if (blocks_.kernel.lanes > 1 && fits_block(world_, bounces_, row)) {
-        blocks_.by_points[row.count - 1].push_back(i);
+      if (blocks_.kernel.lanes > 1 && fits_block(world_, row)) {
+        blocks_.by_points[row.count - 1].push_back(*k);
       } else {
-        blocks_.loose.push_back(i);
+        blocks_.loose.push_back(*k);
       }
     }
     for (int points = 1; points <= ContactRow<Real>::kMaxPoints; ++points) {
@@ -160,8 +155,8 @@ class Sorter {
   }
 
   WorldState& world_;
-  ContactBlocks& blocks_;
-  StepList<std::uint8_t> bounces_;  // per dense body; empty where nothing bounces
+  StepGroup& group_;
+  ContactBlocks& blocks_ = group_.blocks;
   std::size_t reals_ = 0;
 };
 
@@ -172,10 +167,11 @@ void respond(ContactRow<Real>& row) {
 }
 
 template <class Task>
-void for_blocks(WorldState& world, Task&& task) {
-  parallel_for(world, static_cast<std::uint32_t>(world.blocks.heads.size()), tolerance::kBlockGrain,
+void for_blocks(const StepGroup& group, Task&& task) {
+  const std::vector<BlockHead>& heads = group.blocks.heads;
+  parallel_for(group.jobs, static_cast<std::uint32_t>(heads.size()), tolerance::kBlockGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-                 for (std::uint32_t i = begin; i < end; ++i) task(world.blocks.heads[i]);
+                 for (std::uint32_t i = begin; i < end; ++i) task(heads[i]);
                });
 }
 
@@ -189,13 +185,17 @@ BlockKernel choose_block_kernel(int bits) {
                          : block_kernel_128();
 }
 
-void fill_blocks(WorldState& world) {
+BlockKernel block_kernel_of(const WorldState& world) {
   const StepDiagnostics& looks = world.diagnostics;
   const bool alone = looks.ledger || world.settings.friction_cone != FrictionCone::Exact;
-  world.blocks.kernel = alone ? BlockKernel{} : choose_block_kernel(looks.kernel_bits);
-  Sorter(world).sort();
-  ContactBlocks& blocks = world.blocks;
-  parallel_for(world, static_cast<std::uint32_t>(blocks.loose.size()), tolerance::kRowGrain,
+  return alone ? BlockKernel{} : choose_block_kernel(looks.kernel_bits);
+}
+
+void fill_blocks(WorldState& world, StepGroup& group) {
+  ContactBlocks& blocks = group.blocks;
+  blocks.kernel = block_kernel_of(world);
+  Sorter(world, group).sort();
+  parallel_for(group.jobs, static_cast<std::uint32_t>(blocks.loose.size()), tolerance::kRowGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = begin; i < end; ++i) {
                    ContactRow<Real>& row = world.rows[blocks.loose[i]];
@@ -205,9 +205,9 @@ void fill_blocks(WorldState& world) {
   BlockPass pass;
   pass.heads = blocks.heads.data();
   pass.numbers = blocks.data();
-  const std::size_t lanes = static_cast<std::size_t>(world.blocks.kernel.lanes);
-  for_blocks(world, [&](const BlockHead& head) {
-    Real* const to = world.blocks.data() + head.numbers;
+  const std::size_t lanes = static_cast<std::size_t>(blocks.kernel.lanes);
+  for_blocks(group, [&](const BlockHead& head) {
+    Real* const to = blocks.data() + head.numbers;
     const std::size_t count = reals_of(static_cast<int>(head.points));
     if (head.lanes != (1u << lanes) - 1u) std::memset(to, 0, count * lanes * sizeof(Real));
     const std::size_t in_tiles = count - count % kTile;
@@ -229,10 +229,11 @@ void fill_blocks(WorldState& world) {
   });
 }
 
-void empty_blocks(WorldState& world) {
-  const std::size_t lanes = static_cast<std::size_t>(world.blocks.kernel.lanes);
-  for_blocks(world, [&](const BlockHead& head) {
-    const Real* const from = world.blocks.data() + head.numbers;
+void empty_blocks(WorldState& world, StepGroup& group) {
+  ContactBlocks& blocks = group.blocks;
+  const std::size_t lanes = static_cast<std::size_t>(blocks.kernel.lanes);
+  for_blocks(group, [&](const BlockHead& head) {
+    const Real* const from = blocks.data() + head.numbers;
     const std::size_t count = reals_of(static_cast<int>(head.points));
     const std::size_t in_tiles = count - (count - kHeadReals) % kTile;
     const auto rest = [&](std::size_t i, ContactRow<Real>& row, std::size_t begin) {

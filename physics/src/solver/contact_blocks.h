@@ -13,17 +13,18 @@ namespace plumb::inline PLUMB_ABI::detail {
 
 struct WorldState;
 
+struct IndexRange {
+  std::uint32_t begin = 0, end = 0;
+};
+
 struct ContactBlocks {
-  struct Range {
-    std::uint32_t begin = 0, end = 0;
-  };
   struct alignas(64) Line {
     std::uint8_t bytes[64];
   };
   // What one colour has: first the rows of bodies that overlap deeply, which are relaxed more often
   // (up to the `deep` marks), then the others.
   struct Color {
-    Range heads, loose;
+    IndexRange heads, loose;
     std::uint32_t deep_heads = 0, deep_loose = 0;  // ends
   };
   BlockKernel kernel;
@@ -40,9 +41,14 @@ struct ContactBlocks {
 // at a time for 0 < bits < 128. 0: as long as pays.
 BlockKernel choose_block_kernel(int bits);
 
-// Sorts the rows of this step into blocks and loose ones, and fills the blocks.
-void fill_blocks(WorldState& world);
+// The kernel of this step's passes.
+BlockKernel block_kernel_of(const WorldState& world);
+
+struct StepGroup;
+
+// Sorts the rows of a group into blocks and loose ones, and fills the blocks.
+void fill_blocks(WorldState& world, StepGroup& group);
 // Writes what the blocks' rows have become back to the rows.
-void empty_blocks(WorldState& world);
+void empty_blocks(WorldState& world, StepGroup& group);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -86,6 +86,9 @@ RowBlock<P>& numbers_of(const BlockPass& pass, const BlockHead& head) {
   return *reinterpret_cast<RowBlock<P>*>(pass.numbers + head.numbers);
 }
 
+// Each of these is one stretch of arithmetic on registers: calls in it would pass them by memory.
+#define PLUMB_ONE_STRETCH [[gnu::flatten]]
+
 template <int P>
 void prepare_rows(const BlockPass& pass, const BlockHead& head) {
   RowBlock<P>& row = numbers_of<P>(pass, head);
@@ -94,7 +97,7 @@ void prepare_rows(const BlockPass& pass, const BlockHead& head) {
 }
 
 template <int P>
-void warm_rows(const BlockPass& pass, const BlockHead& head) {
+PLUMB_ONE_STRETCH void warm_rows(const BlockPass& pass, const BlockHead& head) {
   const RowBlock<P>& row = numbers_of<P>(pass, head);
   BlockBodies bodies(pass, head);
   RowVelocities<Number> u = bodies.velocities();
@@ -113,7 +116,7 @@ void mark(const BlockPass& pass, const BlockHead& head, std::uint32_t lanes) {
 
 // The soft pass, or the relaxing one, which also tells the bodies what they carry.
 template <int P, bool kRelaxes>
-void sweep_block(const BlockPass& pass, const BlockHead& head) {
+PLUMB_ONE_STRETCH void sweep_block(const BlockPass& pass, const BlockHead& head) {
   RowBlock<P>& row = numbers_of<P>(pass, head);
   BlockBodies bodies(pass, head);
   RowVelocities<Number> u = bodies.velocities();
@@ -211,9 +214,6 @@ class Bodies {
   std::uint32_t which_;
   Quad<Real, kLanes> velocity_, spin_;  // with the loads
 };
-
-// Each of these is one stretch of arithmetic on registers: calls in it would pass them by memory.
-#define PLUMB_ONE_STRETCH [[gnu::flatten]]
 
 PLUMB_ONE_STRETCH
 void kick_bodies(const BodyPass& pass, std::uint32_t first, std::uint32_t which) {

@@ -13,9 +13,10 @@ namespace plumb::inline PLUMB_ABI::detail {
 
 class DeepBodies {
  public:
-  explicit DeepBodies(WorldState& world)
+  // Of all bodies, or of a group without such.
+  DeepBodies(WorldState& world, bool some)
       : world_(world),
-        bodies_(deep_bodies(world)),
+        bodies_(deep_bodies(world, some)),
         after_one_(bodies_.size(), &world.memory),
         seen_(bodies_.size(), &world.memory) {}
 
@@ -65,9 +66,9 @@ class DeepBodies {
     Real tumbled = 0;     // [kg m^2/s] |w x I w| over the step
   };
 
-  static StepList<std::uint32_t> deep_bodies(WorldState& world) {
+  static StepList<std::uint32_t> deep_bodies(WorldState& world, bool some) {
     StepList<std::uint32_t> bodies(&world.memory);
-    if (!world.deep_overlap) return bodies;
+    if (!some) return bodies;
     for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i)
       if (world.overlaps_deeply[i] != 0) bodies.push_back(i);
     return bodies;

@@ -13,7 +13,7 @@
 namespace plumb::inline PLUMB_ABI::detail {
 
 // What the kernel takes: no damping, no locked axes, and the exact flow.
-inline bool is_plain(const WorldState& world, std::uint32_t i) {
+inline bool goes_plainly(const WorldState& world, std::uint32_t i) {
   const BodyForce& force = world.bodies.force[i];
   const BodyMass& mass = world.bodies.mass[i];
   return mass.mass > Real(0) && mass.angular_locks == 0 && !(force.linear_damping > Real(0)) &&
@@ -22,39 +22,35 @@ inline bool is_plain(const WorldState& world, std::uint32_t i) {
          !lacks_gyroscopic_term(world.settings, mass);
 }
 
+// How every awake body goes through this step.
+inline void choose_body_ways(WorldState& world) {
+  const BodyStore& bodies = world.bodies;
+  world.body_ways.resize(bodies.awake_end);
+  parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 for (std::uint32_t k = begin; k < end; ++k) {
+                   const std::uint32_t i = bodies.awake_begin + k;
+                   const SubstepBody& s = world.substep[i];
+                   // Effects may damp a body from substep to substep.
+                   world.body_ways[i] = !goes_plainly(world, i) || s.affected ? BodyWay::Other
+                                        : !s.constrained                      ? BodyWay::Free
+                                        : !s.split                            ? BodyWay::Held
+                                                                              : BodyWay::Other;
+                 }
+               });
+  world.groups.all_fly =
+      std::all_of(world.body_ways.begin() + bodies.awake_begin, world.body_ways.end(),
+                  [](BodyWay way) { return way == BodyWay::Free; });
+}
+
 class PlainBodies {
  public:
-  explicit PlainBodies(WorldState& world) : world_(world), kernel_(world.blocks.kernel) {
-    BodyStore& bodies = world.bodies;
-    static_assert(sizeof(BodyVelocity) == 8 * sizeof(Real) &&
-                  sizeof(BodyDelta) == 8 * sizeof(Real) &&
-                  sizeof(BodyMomentum) == 4 * sizeof(Real) &&
-                  sizeof(BodyMass) == 12 * sizeof(Real) && sizeof(BodyForce) == 8 * sizeof(Real) &&
-                  sizeof(SubstepBody) == 32 * sizeof(Real) && sizeof(BodyPose) % sizeof(Real) == 0);
-    pass_.velocity = &bodies.velocity.data()->v.x;
-    pass_.delta = &world.delta.data()->dp.x;
-    pass_.momentum = &bodies.momentum.data()->L.x;
-    pass_.orientation = &bodies.pose.data()->q.x;
-    pass_.pose_stride = sizeof(BodyPose) / sizeof(Real);
-    pass_.mass = &bodies.mass.data()->inverse_mass.x;
-    pass_.force = &bodies.force.data()->force.x;
-    pass_.substep = &world.substep.data()->v_start.x;
-    pass_.h = world.h;
-    pass_.dt = world.dt;
-    world.body_ways.resize(bodies.awake_end);
-    for_chunks([&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t i = begin; i < end; ++i) {
-        const SubstepBody& s = world.substep[i];
-        // Effects may damp a body from substep to substep.
-        world.body_ways[i] = !is_plain(world, i) || s.affected ? BodyWay::Other
-                             : !s.constrained                  ? BodyWay::Free
-                             : !s.split                        ? BodyWay::Held
-                                                               : BodyWay::Other;
-      }
-    });
-    all_fly_ = std::all_of(world.body_ways.begin() + bodies.awake_begin, world.body_ways.end(),
-                           [](BodyWay way) { return way == BodyWay::Free; });
-  }
+  // The bodies of a group, or all that are awake.
+  PlainBodies(WorldState& world, BlockKernel kernel, const StepGroup& group)
+      : PlainBodies(world, kernel, group.bodies, group.jobs, group.number) {}
+  PlainBodies(WorldState& world, BlockKernel kernel)
+      : PlainBodies(world, kernel, {world.bodies.awake_begin, world.bodies.awake_end}, world.jobs,
+                    kAllGroups) {}
 
   // Each runs the kernel on what goes that way; task(i) on what the kernel leaves, and on bodies
   // that go no plain way.
@@ -92,41 +88,68 @@ class PlainBodies {
   }
 
  private:
-  template <class Range>
-  void for_chunks(Range&& range) {
-    const std::uint32_t first = world_.bodies.awake_begin;
-    parallel_for(
-        world_, world_.bodies.awake_end - first, tolerance::kBodyGrain,
-        [&](std::uint32_t begin, std::uint32_t end) { range(first + begin, first + end); });
+  static constexpr std::uint32_t kAllGroups = kNone;
+
+  PlainBodies(WorldState& world, BlockKernel kernel, IndexRange range, JobSystem* jobs,
+              std::uint32_t group)
+      : world_(world), kernel_(kernel), range_(range), jobs_(jobs), group_(group) {
+    BodyStore& bodies = world.bodies;
+    static_assert(sizeof(BodyVelocity) == 8 * sizeof(Real) &&
+                  sizeof(BodyDelta) == 8 * sizeof(Real) &&
+                  sizeof(BodyMomentum) == 4 * sizeof(Real) &&
+                  sizeof(BodyMass) == 12 * sizeof(Real) && sizeof(BodyForce) == 8 * sizeof(Real) &&
+                  sizeof(SubstepBody) == 32 * sizeof(Real) && sizeof(BodyPose) % sizeof(Real) == 0);
+    pass_.velocity = &bodies.velocity.data()->v.x;
+    pass_.delta = &world.delta.data()->dp.x;
+    pass_.momentum = &bodies.momentum.data()->L.x;
+    pass_.orientation = &bodies.pose.data()->q.x;
+    pass_.pose_stride = sizeof(BodyPose) / sizeof(Real);
+    pass_.mass = &bodies.mass.data()->inverse_mass.x;
+    pass_.force = &bodies.force.data()->force.x;
+    pass_.substep = &world.substep.data()->v_start.x;
+    pass_.h = world.h;
+    pass_.dt = world.dt;
+  }
+
+  [[nodiscard]] bool is_mine(std::uint32_t i) const {
+    return group_ == kAllGroups || world_.groups.group_of[i] == group_;
   }
   template <class Task, class Run>
   void sweep(BodyWay way, Task&& task, Run&& run) {
-    if (all_fly_ && way != BodyWay::Free) return;
+    if (world_.groups.all_fly && way != BodyWay::Free) return;
+    parallel_for(jobs_, range_.end - range_.begin, tolerance::kBodyGrain,
+                 [&](std::uint32_t begin, std::uint32_t end) {
+                   sweep_chunk(range_.begin + begin, range_.begin + end, way, task, run);
+                 });
+  }
+  template <class Task, class Run>
+  void sweep_chunk(std::uint32_t begin, std::uint32_t end, BodyWay way, Task&& task, Run&& run) {
     const std::uint32_t lanes = static_cast<std::uint32_t>(kernel_.lanes);
-    for_chunks([&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t first = begin; first < end; first += lanes) {
-        const std::uint32_t count = std::min(lanes, end - first);
-        std::uint32_t which = 0, others = 0;
-        for (std::uint32_t k = 0; k < count; ++k) {
-          which |= (world_.body_ways[first + k] == way ? 1u : 0u) << k;
-          others |= (world_.body_ways[first + k] == BodyWay::Other ? 1u : 0u) << k;
-        }
-        // The kernel reads all its lanes: not past the last body.
-        if (lanes == 1 || count < lanes) {
-          others |= which;
-        } else if (which != 0) {
-          others |= run(first, which);
-        }
-        for (; others != 0; others &= others - 1)
-          task(first + static_cast<std::uint32_t>(std::countr_zero(others)));
+    for (std::uint32_t first = begin; first < end; first += lanes) {
+      const std::uint32_t count = std::min(lanes, end - first);
+      std::uint32_t which = 0, others = 0;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        const BodyWay its = is_mine(first + k) ? world_.body_ways[first + k] : BodyWay::None;
+        which |= (its == way ? 1u : 0u) << k;
+        others |= (its == BodyWay::Other ? 1u : 0u) << k;
       }
-    });
+      // The kernel reads all its lanes: not past the last body.
+      if (lanes == 1 || count < lanes) {
+        others |= which;
+      } else if (which != 0) {
+        others |= run(first, which);
+      }
+      for (; others != 0; others &= others - 1)
+        task(first + static_cast<std::uint32_t>(std::countr_zero(others)));
+    }
   }
 
   WorldState& world_;
   BlockKernel kernel_;
+  IndexRange range_;
+  JobSystem* jobs_;
+  std::uint32_t group_;
   BodyPass pass_;
-  bool all_fly_ = false;
 };
 
 }  // namespace plumb::inline PLUMB_ABI::detail

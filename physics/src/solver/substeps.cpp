@@ -26,6 +26,7 @@
 #include "solver/plain_bodies.h"
 #include "solver/row_end.h"
 #include "solver/row_velocities.h"
+#include "solver/step_groups.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "solver/worst_first.h"
@@ -41,20 +42,20 @@ namespace {
 
 // Rows of one colour share no dynamic body, so they may run in any order, or at once.
 template <class Sweep, class Task>
-void for_rows_by_color(WorldState& world, const BlockPass& pass, Sweep sweep, Task&& task,
-                       bool only_deep = false) {
-  const ContactBlocks& blocks = world.blocks;
+void for_rows_by_color(WorldState& world, const StepGroup& group, const BlockPass& pass,
+                       Sweep sweep, Task&& task, bool only_deep = false) {
+  const ContactBlocks& blocks = group.blocks;
   for (const ContactBlocks::Color& color : blocks.colors) {
-    ContactBlocks::Range wide = color.heads, loose = color.loose;
+    IndexRange wide = color.heads, loose = color.loose;
     if (only_deep) {
       wide.end = color.deep_heads;
       loose.end = color.deep_loose;
     }
-    parallel_for(world, wide.end - wide.begin, tolerance::kBlockGrain,
+    parallel_for(group.jobs, wide.end - wide.begin, tolerance::kBlockGrain,
                  [&](std::uint32_t begin, std::uint32_t end) {
                    sweep(pass, wide.begin + begin, wide.begin + end);
                  });
-    parallel_for(world, loose.end - loose.begin, tolerance::kRowGrain,
+    parallel_for(group.jobs, loose.end - loose.begin, tolerance::kRowGrain,
                  [&](std::uint32_t begin, std::uint32_t end) {
                    for (std::uint32_t i = loose.begin + begin; i < loose.begin + end; ++i)
                      task(world.rows[blocks.loose[i]]);
@@ -62,11 +63,11 @@ void for_rows_by_color(WorldState& world, const BlockPass& pass, Sweep sweep, Ta
   }
 }
 
-BlockPass pass_over_blocks(WorldState& world) {
+BlockPass pass_over_blocks(WorldState& world, StepGroup& group) {
   static_assert(sizeof(BodyVelocity) == 8 * sizeof(Real) && sizeof(BodyDelta) == 8 * sizeof(Real));
   BlockPass pass;
-  pass.heads = world.blocks.heads.data();
-  pass.numbers = world.blocks.data();
+  pass.heads = group.blocks.heads.data();
+  pass.numbers = group.blocks.data();
   pass.velocity = &world.bodies.velocity.data()->v.x;
   pass.delta = &world.delta.data()->dp.x;
   pass.contacts_changed = world.contacts_changed.data();
@@ -198,16 +199,31 @@ bool resisted(const WorldState& world, const ContactRow<Real>& row) {
          world.turning_rows[row.turning].resisted * world.dt > kVisible;
 }
 
-void store_impulses(WorldState& world) {
-  const newton::CallsOfRows calls(world);
-  StepList<newton::Call> called(calls.listens() ? world.rows.size() : 0, newton::Call::None,
-                                &world.memory);
-  parallel_for(world, static_cast<std::uint32_t>(world.rows.size()), tolerance::kRowGrain,
+// What the accurate solver hears of the rows, if it listens (newton/choose.h).
+class RowCalls {
+ public:
+  explicit RowCalls(WorldState& world)
+      : calls_(world),
+        of_row_(calls_.listens() ? world.rows.size() : 0, newton::Call::None, &world.memory) {}
+  void note(const WorldState& world, std::uint32_t k) {
+    if (!of_row_.empty()) of_row_[k] = calls_.of(world.rows[k]);
+  }
+  void tell(WorldState& world) const {
+    if (calls_.listens()) newton::hear_calls(world, of_row_.data());
+  }
+
+ private:
+  newton::CallsOfRows calls_;
+  StepList<newton::Call> of_row_;
+};
+
+void store_impulses(WorldState& world, const StepGroup& group, RowCalls& calls) {
+  parallel_for(group.jobs, static_cast<std::uint32_t>(group.rows.size()), tolerance::kRowGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-                 for (std::uint32_t k = begin; k < end; ++k) {
-                   const ContactRow<Real>& row = world.rows[k];
-                   if (k + kRowsAhead < end)
-                     prefetch(world.contacts[world.rows[k + kRowsAhead].contact]);
+                 for (std::uint32_t j = begin; j < end; ++j) {
+                   const ContactRow<Real>& row = world.rows[group.rows[j]];
+                   if (j + kRowsAhead < end)
+                     prefetch(world.contacts[world.rows[group.rows[j + kRowsAhead]].contact]);
                    Contact& contact = world.contacts[row.contact];
                    contact.at_rest = row.at_rest;
                    contact.resisted = resisted(world, row);
@@ -220,17 +236,22 @@ void store_impulses(WorldState& world) {
                      contact.step_friction_impulse[i] +=
                          point.friction1_sum * row.t1 + point.friction2_sum * row.t2;
                    }
-                   if (!called.empty()) called[k] = calls.of(row);
+                   calls.note(world, group.rows[j]);
                  }
                });
-  if (calls.listens()) newton::hear_calls(world, called.data());
+}
+
+bool some_body_was_spun(const StepGroups& groups) {
+  return !groups.together.spun_rows.empty() ||
+         std::any_of(groups.apart.begin(), groups.apart.end(),
+                     [](const StepGroups::Apart& apart) { return apart.spun; });
 }
 
 // Of what was made ready for this step, the report counts what was of use.
 void count_what_acted(WorldState& world) {
   StepReport& report = world.report;
-  if (report.looked_ahead == 0 && world.turned_rows.empty() && world.spun_rows.empty() &&
-      world.bouncing_rows.empty())
+  if (report.looked_ahead == 0 && world.turned_rows.empty() && world.bouncing_rows.empty() &&
+      !some_body_was_spun(world.groups))
     return;
   report.looked_ahead = 0;
   for (const ContactRow<Real>& row : world.rows) {
@@ -283,82 +304,91 @@ void fly_body(WorldState& world, std::uint32_t i) {
   world.bodies.pose[i].q = q;
 }
 
-}  // namespace
+void fly_free_bodies(WorldState& world, BlockKernel kernel) {
+  PlainBodies(world, kernel).fly([&](std::uint32_t i) { fly_body(world, i); });
+}
 
-void run_substeps(WorldState& world) {
-  const int extra_passes = world.deep_overlap ? tolerance::kDeepRelaxPasses - 1 : 0;
+// The stages that a group has besides the plain passes over its bodies and rows.
+struct ExtraStages {
+  bool effects = false, joints = false, newton = false, worst_first = false, ledger = false;
+  bool running_surfaces = false, bounces = false, fast_turns = false, adhesion = false;
+  bool deep = false;  // some bodies overlap deeply
+};
+ExtraStages extra_stages_of(const WorldState& world) {
+  return {.effects = world.effects != nullptr && !world.effects->empty(),
+          .joints = !world.joints.empty(),
+          .newton = world.newton != nullptr && world.newton->count > 0,
+          .worst_first = resolves_worst_first(world),
+          .ledger = world.diagnostics.ledger,
+          .running_surfaces = !world.spinning_rows.empty(),
+          .bounces = !world.bouncing_rows.empty(),
+          .fast_turns = !world.turned_rows.empty(),
+          .adhesion = !world.adhesive_rows.empty(),
+          .deep = world.deep_overlap};
+}
+
+// All substeps of one group.
+void run_group(WorldState& world, StepGroup& group, const ExtraStages& has) {
+  const int extra_passes = has.deep ? tolerance::kDeepRelaxPasses - 1 : 0;
   const int iterations = world.settings.velocity_iterations;
-  const bool joints = !world.joints.empty();
-  const bool newton = world.newton != nullptr && world.newton->count > 0;
-  const bool worst_first = resolves_worst_first(world);
-  const bool effects = world.effects != nullptr && !world.effects->empty();
-  const bool ledger = world.diagnostics.ledger;
-  JobSystem* const jobs = world.jobs;
-  if (ledger) {
-    world.jobs = nullptr;  // the book is written by one thread
-    open_ledger(world);
-  }
-  if (effects) begin_effects(world);
-  fill_blocks(world);
-  const BlockKernel kernel = world.blocks.kernel;
-  BlockPass pass = pass_over_blocks(world);
-  PlainBodies bodies(world);
-  DeepBodies deep(world);
-  bodies.fly([&](std::uint32_t i) { fly_body(world, i); });
-  if (ledger) charge_flight(world);
+  fill_blocks(world, group);
+  const BlockKernel kernel = group.blocks.kernel;
+  BlockPass pass = pass_over_blocks(world, group);
+  PlainBodies bodies(world, kernel, group);
+  DeepBodies deep(world, has.deep);
   for (int substep = 0; substep < world.settings.substeps; ++substep) {
-    if (effects) act_effects(world);
-    if (effects && ledger) charge_effects(world);
-    if (!world.spinning_rows.empty()) carry_drives(world);
-    if (!world.bouncing_rows.empty()) run_impacts(world);
-    if (ledger) charge_bounces(world);
+    if (has.effects) act_effects(world);
+    if (has.effects && has.ledger) charge_effects(world);
+    if (has.running_surfaces) carry_drives(world);
+    if (has.bounces) run_impacts(world);
+    if (has.ledger) charge_bounces(world);
     bodies.kick([&](std::uint32_t i) {
       if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
     });
-    if (!world.turned_rows.empty()) renew_turned_rows(world);
-    if (!world.bouncing_rows.empty()) renew_bouncing_rows(world);
-    if (renew_spun_rows(world)) pass = pass_over_blocks(world);
-    if (ledger) charge_kick(world);
-    if (!world.adhesive_rows.empty()) pull_together(world);
-    if (joints) fly_joint_groups(world);
-    if (ledger) charge_joint_flight(world);
-    if (joints) warm_start_joints(world);
-    if (ledger) charge(world, &EnergyLedger::joints);
-    for_rows_by_color(world, pass, kernel.warm, [&](ContactRow<Real>& row) {
+    if (has.fast_turns) renew_turned_rows(world);
+    if (has.bounces) renew_bouncing_rows(world);
+    if (renew_spun_rows(world, group)) pass = pass_over_blocks(world, group);
+    if (has.ledger) charge_kick(world);
+    if (has.adhesion) pull_together(world);
+    if (has.joints) fly_joint_groups(world);
+    if (has.ledger) charge_joint_flight(world);
+    if (has.joints) warm_start_joints(world);
+    if (has.ledger) charge(world, &EnergyLedger::joints);
+    for_rows_by_color(world, group, pass, kernel.warm, [&](ContactRow<Real>& row) {
       if (row.skip) return;
       RowVelocities<Real> u = read_velocities(world, row);
       const RowVelocities<Real> before = u;
-      const double energy = ledger ? row_energy(world, row) : 0;
+      const double energy = has.ledger ? row_energy(world, row) : 0;
       warm_start(row, u);
       write_velocities(world, row, u);
-      if (ledger) charge_warm_start(world, row, energy, before, u);
+      if (has.ledger) charge_warm_start(world, row, energy, before, u);
     });
-    if (ledger) charge(world, &EnergyLedger::normal);
+    if (has.ledger) charge(world, &EnergyLedger::normal);
     for (int i = 0; i < iterations; ++i) {
       const bool first = i == 0;
-      if (ledger && !first) charge(world, &EnergyLedger::normal);
-      if (joints) solve_joints(world);
-      if (ledger) charge(world, &EnergyLedger::joints);
-      for_rows_by_color(world, pass, kernel.solve, [&](ContactRow<Real>& row) {
+      if (has.ledger && !first) charge(world, &EnergyLedger::normal);
+      if (has.joints) solve_joints(world);
+      if (has.ledger) charge(world, &EnergyLedger::joints);
+      for_rows_by_color(world, group, pass, kernel.solve, [&](ContactRow<Real>& row) {
         if (!row.skip) pass_over_row(world, row, pass.inverse_h, true, first);
       });
     }
-    if (newton) solve_newton_islands(world);
-    if (ledger) charge(world, &EnergyLedger::normal);
-    deep.note_tumbling();
+    if (has.newton) solve_newton_islands(world);
+    if (has.ledger) charge(world, &EnergyLedger::normal);
+    if (has.deep) deep.note_tumbling();
     bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
-    if (ledger) charge_drift(world);
-    if (!world.turned_rows.empty()) renew_turned_rows(world);
-    if (!world.bouncing_rows.empty()) renew_bouncing_rows(world);
-    if (renew_spun_rows(world)) pass = pass_over_blocks(world);
-    if (newton) settle_newton_islands(world);
-    if (newton && ledger) charge(world, &EnergyLedger::normal);
-    if (joints) relax_joints(world);
-    if (ledger) charge(world, &EnergyLedger::joints);
+    if (has.ledger) charge_drift(world);
+    if (has.fast_turns) renew_turned_rows(world);
+    if (has.bounces) renew_bouncing_rows(world);
+    if (renew_spun_rows(world, group)) pass = pass_over_blocks(world, group);
+    if (has.newton) settle_newton_islands(world);
+    if (has.newton && has.ledger) charge(world, &EnergyLedger::normal);
+    if (has.joints) relax_joints(world);
+    if (has.ledger) charge(world, &EnergyLedger::joints);
     const auto relax = [&](bool ends_substep, bool only_deep) {
       pass.ends_substep = ends_substep;
       for_rows_by_color(
-          world, pass, kernel.relax,
+          world, group, pass, kernel.relax,
           [&](ContactRow<Real>& row) {
             relax_row(world, row, pass.inverse_h);
             if (ends_substep) close_row(world, row);
@@ -369,25 +399,69 @@ void run_substeps(WorldState& world) {
       relax(false, true);
       if (i == 0) deep.note_one_pass();
     }
-    deep.note_all_passes();
+    if (has.deep) deep.note_all_passes();
     for (int i = 1; i < iterations; ++i) relax(false, false);
     relax(true, false);
-    if (worst_first) resolve_worst_first(world);
-    if (ledger) charge(world, &EnergyLedger::normal);
+    if (has.worst_first) resolve_worst_first(world);
+    if (has.ledger) charge(world, &EnergyLedger::normal);
     bodies.finish([&](std::uint32_t i) { return trapezoid_weight(world, i); },
                   [&](std::uint32_t i) { finish_body(world, i); });
-    if (effects) settle_effects(world);
-    if (ledger) charge_finish(world);
+    if (has.effects) settle_effects(world);
+    if (has.ledger) charge_finish(world);
   }
-  world.jobs = jobs;
-  if (effects) end_effects(world);
-  empty_blocks(world);
-  store_impulses(world);
-  count_what_acted(world);
+  empty_blocks(world, group);
+  if (!has.deep) return;
   world.report.deep_bodies = deep.bodies_that_gained();
   deep.list_tumblers();
-  if (joints) store_joints(world);
-  if (newton) report_newton_islands(world);
+}
+
+// The groups that go apart, each by one thread from its first substep to its last.
+void run_groups_apart(WorldState& world, RowCalls& calls) {
+  StepGroups& groups = world.groups;
+  parallel_for(world, static_cast<std::uint32_t>(groups.apart.size()), 1,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 static thread_local StepGroup group;  // kept for its storage, which stays cached
+                 for (std::uint32_t i = begin; i < end; ++i) {
+                   StepGroups::Apart& apart = groups.apart[i];
+                   group.number = i + 1;
+                   group.bodies = apart.bodies;
+                   group.rows.assign(groups.rows.begin() + apart.rows.begin,
+                                     groups.rows.begin() + apart.rows.end);
+                   group.spun_rows.clear();
+                   run_group(world, group, {});
+                   store_impulses(world, group, calls);
+                   apart.spun = !group.spun_rows.empty();
+                 }
+               });
+}
+
+}  // namespace
+
+void run_substeps(WorldState& world) {
+  const ExtraStages has = extra_stages_of(world);
+  JobSystem* const jobs = world.jobs;
+  if (has.ledger) {
+    world.jobs = nullptr;  // the book is written by one thread
+    open_ledger(world);
+  }
+  if (has.effects) begin_effects(world);
+  find_groups(world);
+  choose_body_ways(world);
+  fly_free_bodies(world, block_kernel_of(world));
+  if (has.ledger) charge_flight(world);
+  RowCalls calls(world);
+  world.report.deep_bodies = 0;
+  world.tumbled.clear();
+  StepGroup& together = world.groups.together;
+  run_group(world, together, has);
+  world.jobs = jobs;
+  if (has.effects) end_effects(world);
+  store_impulses(world, together, calls);
+  run_groups_apart(world, calls);
+  calls.tell(world);
+  count_what_acted(world);
+  if (has.joints) store_joints(world);
+  if (has.newton) report_newton_islands(world);
   world.last_h = world.h;
 }
 

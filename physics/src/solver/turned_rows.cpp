@@ -120,7 +120,6 @@ Real visible_turning(const BodyMass& m, Rotation q, Vec w) {
 
 void find_turned_rows(WorldState& world) {
   world.turned_rows.clear();
-  world.spun_rows.clear();
   bool any = false;
   const Real limit = fast_turn(world);
   for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
@@ -193,17 +192,17 @@ void renew_bouncing_rows(WorldState& world) {
 
 namespace {
 
-bool find_spun_bodies(WorldState& world) {
+bool find_spun_bodies(WorldState& world, const StepGroup& group) {
   const bool newton = world.newton != nullptr && world.newton->count > 0;
   const Real limit = fast_turn(world);
   bool any = false;
-  if (world.rows.empty()) return false;
-  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
-    SubstepBody& s = world.substep[i];
-    if (!s.constrained || s.split || s.turned || s.spun) continue;
+  if (group.rows.empty()) return false;
+  for (std::uint32_t i = group.bodies.begin; i < group.bodies.end; ++i) {
     const Vec w = world.bodies.velocity[i].w;
+    if (!(world.dt * length(w) > limit) || world.groups.group_of[i] != group.number) continue;
+    SubstepBody& s = world.substep[i];
     const BodyMass& mass = world.bodies.mass[i];
-    if (!(world.dt * length(w) > limit) || is_isotropic(mass)) continue;
+    if (!s.constrained || s.split || s.turned || s.spun || is_isotropic(mass)) continue;
     if (newton && in_newton_island(world, i)) continue;
     s.spun = world.dt * visible_turning(mass, orientation_now(world, i), w) > limit;
     any |= s.spun;
@@ -211,30 +210,31 @@ bool find_spun_bodies(WorldState& world) {
   return any;
 }
 
-void list_spun_rows(WorldState& world) {
-  world.spun_rows.clear();
-  for (const ColorRange color : world.colors)
-    for (std::uint32_t k = color.begin; k < color.end; ++k) {
-      ContactRow<Real>& row = world.rows[k];
-      row.spun = world.substep[row.body_a].spun || world.substep[row.body_b].spun;
-      row.in_block = false;
-      if (row.spun) world.spun_rows.push_back(k);
-    }
+void list_spun_rows(WorldState& world, StepGroup& group) {
+  group.spun_rows.clear();
+  const std::uint32_t colored = world.colors.empty() ? 0 : world.colors.back().end;
+  for (const std::uint32_t k : group.rows) {
+    if (k >= colored) break;
+    ContactRow<Real>& row = world.rows[k];
+    row.spun = world.substep[row.body_a].spun || world.substep[row.body_b].spun;
+    row.in_block = false;
+    if (row.spun) group.spun_rows.push_back(k);
+  }
 }
 
 }  // namespace
 
-bool renew_spun_rows(WorldState& world) {
-  const bool found = find_spun_bodies(world);
+bool renew_spun_rows(WorldState& world, StepGroup& group) {
+  const bool found = find_spun_bodies(world, group);
   if (found) {
-    empty_blocks(world);
-    list_spun_rows(world);
-    fill_blocks(world);
+    empty_blocks(world, group);
+    list_spun_rows(world, group);
+    fill_blocks(world, group);
   }
-  if (world.spun_rows.empty()) return found;
-  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i)
-    if (world.substep[i].spun) turn_inertia(world, i);
-  for (const std::uint32_t k : world.spun_rows) {
+  if (group.spun_rows.empty()) return found;
+  for (std::uint32_t i = group.bodies.begin; i < group.bodies.end; ++i)
+    if (world.substep[i].spun && world.groups.group_of[i] == group.number) turn_inertia(world, i);
+  for (const std::uint32_t k : group.spun_rows) {
     ContactRow<Real>& row = world.rows[k];
     row.watched = true;
     if (world.substep[row.body_a].spun) row.inverse_inertia_a = world.substep[row.body_a].I_inverse;

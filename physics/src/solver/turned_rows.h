@@ -9,6 +9,7 @@
 
 namespace plumb::inline PLUMB_ABI::detail {
 
+struct StepGroup;
 struct WorldState;
 
 // Motion of the bodies up to which a row is told.
@@ -31,10 +32,10 @@ void renew_turned_rows(WorldState& world);
 // would make energy out of every impulse. As above, before rows act.
 void renew_bouncing_rows(WorldState& world);
 
-// Bodies that rows have set spinning within the step: their rows leave the blocks
+// Bodies of a group that rows have set spinning within the step: their rows leave the blocks
 // (contact_blocks.h) and see the inertia as of now, by which momentum becomes velocity, in place of
 // the step's start. Returns whether blocks were filled anew. As above, before rows act.
-bool renew_spun_rows(WorldState& world);
+bool renew_spun_rows(WorldState& world, StepGroup& group);
 
 // Whether it showed in this step that a row was told anew.
 bool telling_showed(const WorldState& world, const ContactRow<Real>& row);

@@ -53,8 +53,14 @@ struct BodyForce {          // 32 / 64
 
 // How far any point of a body's colliders has come since pairs were last looked at, and may come in
 // the next step by its velocity [m]; at least, both. Of what is asleep or static: nothing.
-struct BodyTravel {  // 8 / 16
+struct BodyTravel {  // 20 / 40
   Real moved = 0, coming = 0;
+  // Of the boxes of its colliders (clearance.h): the room that they leave it, at most, and what of
+  // that it may need in the next step, at least.
+  Real room = 0, needed = 0;
+  bool room_to_turn = false;  // in them it may turn in any way: only its path counts
+  bool old_reach = false;     // the reach of its colliders is an earlier step's
+  bool asked = false;         // some pair asked for it in this step
 };
 
 // --- by slot: read when something is built, asked for, or ends -----------------------------------

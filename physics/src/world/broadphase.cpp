@@ -78,10 +78,9 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
           turn};
 }
 
-// Whether the ball of all attitudes of a collider stays in its box in the next step, in which only
-// gravity acts on it: then the collider does. Cheaper than its reach.
-bool ball_stays_in_proxy(const WorldState& world, const ColliderInfo& collider) {
-  if (world.effects != nullptr && !world.effects->empty()) return false;
+// A ball of all attitudes of a collider that holds all its places in the next step, if only gravity
+// acts on it then. Cheaper than its reach.
+WorldAabb ball_of_reach(const WorldState& world, const ColliderInfo& collider) {
   const std::uint32_t dense = world.bodies.dense_of[collider.body];
   const PosVec x = world.bodies.pose[dense].x;
   const PosVec way = cast<PosReal>(world.dt * world.bodies.velocity[dense].v);
@@ -89,7 +88,7 @@ bool ball_stays_in_proxy(const WorldState& world, const ColliderInfo& collider) 
   const Real falls = world.dt * world.dt * static_cast<Real>(world.settings.gravity.norm());
   const auto room = static_cast<PosReal>(collider.farthest + slops + falls);
   const PosVec r{room, room, room};
-  return contains(world.trees.of(collider).box(collider.proxy), swept({x - r, x + r}, way));
+  return swept({x - r, x + r}, way);
 }
 
 void set_reach(WorldState& world, std::uint32_t slot, const WorldAabb& box) {
@@ -115,12 +114,35 @@ PosVec update_reach(WorldState& world, std::uint32_t slot) {
   return reach.path;
 }
 
-bool may_leave_proxy(WorldState& world, std::uint32_t slot) {
-  if (!world.box_notes[slot].paired && ball_stays_in_proxy(world, world.colliders.info[slot])) {
-    world.box_notes[slot].old_reach = true;
-    return false;
+bool may_leave_boxes(WorldState& world, std::uint32_t body) {
+  if (stays_in_boxes(world, body)) return false;
+  const bool effects = world.effects != nullptr && !world.effects->empty();
+  bool leaves = false, to_turn = true;
+  PosReal room = std::numeric_limits<PosReal>::max();
+  for (const std::uint32_t slot : world.bodies.info[body].colliders) {
+    const ColliderInfo& collider = world.colliders.info[slot];
+    const WorldAabb& box = world.trees.of(collider).box(collider.proxy);
+    BoxNotes& notes = world.box_notes[slot];
+    if (!notes.paired && !effects) {
+      const WorldAabb ball = ball_of_reach(world, collider);
+      if (contains(box, ball)) {
+        notes.old_reach = true;
+        room = std::min(room, room_in(box, ball));
+        continue;
+      }
+    }
+    to_turn = false;
+    leaves |= leaves_proxy(world, slot);
+    room = std::min(room, room_in(box, world.reach[slot]));
   }
-  return leaves_proxy(world, slot);
+  note_room(world, body, leaves ? PosReal(0) : room, to_turn);
+  return leaves;
+}
+
+WorldAabb reach_now(const WorldState& world, std::uint32_t slot) {
+  const ColliderInfo& collider = world.colliders.info[slot];
+  const bool old = world.bodies.travel[collider.body].old_reach || world.box_notes[slot].old_reach;
+  return old ? reach_in_next_step(world, collider).box : world.reach[slot];
 }
 
 bool leaves_proxy(WorldState& world, std::uint32_t slot) {

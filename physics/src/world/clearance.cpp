@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "world/tolerances.h"
 
@@ -13,6 +14,7 @@ constexpr Real kFar = std::numeric_limits<Real>::infinity();
 constexpr Real kLonger = Real(1.001);
 // ... and by so many roundings of the lengths that poses and shapes are placed with [-].
 constexpr Real kRoundings = Real(16);
+constexpr Real kMostRoom = Real(8);  // [-] of the body's radius
 
 }  // namespace
 
@@ -25,13 +27,19 @@ void note_travel(WorldState& world, std::uint32_t dense, const BodyPose& before,
   // A turn by an angle moves a point by 2 sin(angle / 2) of its distance from the axis.
   const Real turned = Real(2) * length(Vec{turn.x, turn.y, turn.z}) * info.turning_radius;
   constexpr Real kRounding = kRoundings * std::numeric_limits<Real>::epsilon();
-  bodies.travel[slot] = {
-      kLonger * (length(path) + turned) + kRounding * info.radius,
-      kLonger * world.dt * (length(velocity.v) + length(velocity.w) * info.radius)};
+  BodyTravel& travel = bodies.travel[slot];
+  const Real rounding = kRounding * info.radius;
+  const Real came = length(path), comes = world.dt * length(velocity.v);
+  travel.moved = kLonger * (came + turned) + rounding;
+  travel.coming = kLonger * (comes + world.dt * length(velocity.w) * info.radius);
+  travel.room -= travel.room_to_turn ? kLonger * came + rounding : travel.moved;
+  travel.needed = travel.room_to_turn ? kLonger * comes : travel.coming;
 }
 
 void forget_travel(WorldState& world, std::uint32_t body) {
-  world.bodies.travel[body] = {kFar, kFar};
+  BodyTravel& travel = world.bodies.travel[body];
+  travel.moved = travel.coming = kFar;
+  travel.room = 0;
   world.bodies.standing.push_back(body);
 }
 
@@ -48,6 +56,32 @@ bool stays_clear(const WorldState& world, Pair& pair) {
   pair.memory.gap -= a.moved + b.moved;
   const Real near = tolerance::kMarginSlops * pair.slop + world.falls_in_a_step;
   return pair.memory.gap > kLonger * near + a.coming + b.coming;
+}
+
+bool stays_in_boxes(WorldState& world, std::uint32_t body) {
+  if (world.effects != nullptr && !world.effects->empty()) return false;
+  BodyTravel& travel = world.bodies.travel[body];
+  // What pairs ask for again and again is better renewed once.
+  const bool asked = std::exchange(travel.asked, false);
+  if (asked || !(travel.room > travel.needed)) return false;
+  travel.old_reach = true;
+  return true;
+}
+
+void note_room(WorldState& world, std::uint32_t body, PosReal room, bool to_turn) {
+  BodyTravel& travel = world.bodies.travel[body];
+  const BodyInfo& info = world.bodies.info[body];
+  // Subtractions from more would lose what is told longer.
+  travel.room = std::min(static_cast<Real>(room) / kLonger, kMostRoom * info.radius);
+  travel.room_to_turn = to_turn;
+  travel.old_reach = false;
+}
+
+PosReal room_in(const WorldAabb& outer, const WorldAabb& inner) {
+  const PosVec d = min_each(inner.lower - outer.lower, outer.upper - inner.upper);
+  const PosVec size = max_each(absolute(outer.lower), absolute(outer.upper));
+  constexpr PosReal kRounding = kRoundings * std::numeric_limits<PosReal>::epsilon();
+  return std::min({d.x, d.y, d.z}) - kRounding * std::max({size.x, size.y, size.z});
 }
 
 Real gap_of(const WorldAabb& a, const WorldAabb& b) {

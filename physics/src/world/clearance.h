@@ -22,6 +22,16 @@ void end_travels(WorldState& world);
 // contacts are made within in this step (reach_of in narrowphase.cpp) of a margin of kMarginSlops.
 bool stays_clear(const WorldState& world, Pair& pair);
 
+// The same for the boxes of its colliders in the broadphase: a body knows how much room they leave
+// it. Whether it surely stays in them for one step more, in which nothing but gravity acts on it;
+// the reach of its colliders is then that of an earlier step, where it is not worth renewing.
+bool stays_in_boxes(WorldState& world, std::uint32_t body);
+// They have been looked at: all of its colliders' reach lies within by at least `room` [m], and if
+// `to_turn` that of balls in which they can turn.
+void note_room(WorldState& world, std::uint32_t body, PosReal room, bool to_turn);
+// [m] by which one box lies inside another, at least; negative if it does not.
+PosReal room_in(const WorldAabb& outer, const WorldAabb& inner);
+
 // [m] how far two boxes lie apart along the axis on which they do most; at most 0 if they overlap.
 Real gap_of(const WorldAabb& a, const WorldAabb& b);
 

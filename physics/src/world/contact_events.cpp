@@ -75,11 +75,10 @@ void note_contact_events(WorldState& world) {
 // bounce.
 void note_hits(WorldState& world) {
   for (const ContactRow<Real>& row : world.rows) {
-    if (row.bounced) continue;
+    if (row.bounced || row.approach_speed <= tolerance::kBounceCutResting * row.cut_unit) continue;
     const Contact& contact = world.contacts[row.contact];
     const Pair& pair = world.pairs[contact.pair];
-    if (pair.was_touching || row.approach_speed <= tolerance::kBounceCutResting * row.cut_unit)
-      continue;
+    if (pair.was_touching) continue;
     HitEvent hit;
     // The manifold lies midway in the gap; they met on the side that did not move to the other.
     const bool b_yields = world.bodies.info[pair.body_b].type == MotionType::Dynamic;

@@ -31,14 +31,13 @@ bool move_body(WorldState& world, std::uint32_t i) {
   if (turned_here) next.q = normalized(delta.dq * next.q);
   if (turned_here && dynamic)
     bodies.velocity[i].w = angular_velocity_of(bodies.mass[i], next.q, bodies.momentum[i].L);
-  info.acceleration = world.substep[i].acceleration;
+  const Vec a = world.substep[i].acceleration;
+  if (length_squared(info.acceleration - a) != Real(0)) info.acceleration = a;  // mostly gravity's
   bodies.force[i].force = bodies.force[i].torque = {0, 0, 0};
   if (!is_sound(bodies.velocity[i], next, bodies.momentum[i].L)) return false;
   const BodyPose before = bodies.pose[i];
   bodies.pose[i] = next;
-  // Free bodies have turned already: by whatever.
-  note_travel(world, i, before,
-              turned_here ? next.q * conjugate(before.q) : Rotation{Real(1), 0, 0, 0});
+  note_travel(world, i, before, turned_here ? next.q * conjugate(before.q) : delta.dq);
   return true;
 }
 
@@ -52,6 +51,7 @@ void rest_in_step(WorldState& world, std::uint32_t body) {
   std::swap(world.substep[place], world.substep[last]);
   for (const std::uint32_t collider : world.bodies.info[body].colliders)
     update_reach(world, collider);  // it goes nowhere now
+  world.bodies.travel[body].old_reach = false;
 }
 
 void quarantine(WorldState& world, std::uint32_t body) {
@@ -75,8 +75,7 @@ void renew_boxes(WorldState& world, const std::vector<std::uint32_t>& moved) {
   leaves.assign(count, 0);
   parallel_for(world, count, tolerance::kBodyGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i)
-      for (const std::uint32_t collider : world.bodies.info[moved[i]].colliders)
-        if (may_leave_proxy(world, collider)) leaves[i] = 1;
+      leaves[i] = may_leave_boxes(world, moved[i]) ? 1 : 0;
   });
   for (std::uint32_t i = 0; i < count; ++i) {
     if (leaves[i] == 0) continue;

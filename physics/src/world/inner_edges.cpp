@@ -233,10 +233,12 @@ void drop_hidden_contacts(WorldState& world) {
   StepList<Touch> touches(&world.memory);
   list_touches(world, touches);
   const auto whole = [](const Touch& t) { return std::pair(t.mover, t.rigid); };
-  std::sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) {
+  const auto before = [](const Touch& a, const Touch& b) {
     return std::tuple(a.mover, a.rigid, a.contact, a.of_b) <
            std::tuple(b.mover, b.rigid, b.contact, b.of_b);
-  });
+  };
+  if (!std::is_sorted(touches.begin(), touches.end(), before))
+    std::sort(touches.begin(), touches.end(), before);
   StepList<std::uint8_t> hidden(world.contacts.size(), 0, &world.memory);
   StepList<Piece> pieces(&world.memory);
   for (std::size_t begin = 0, end; begin < touches.size(); begin = end) {

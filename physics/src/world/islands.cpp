@@ -185,6 +185,7 @@ void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
       world.trees.set_asleep(world.colliders.info[slot], slot, true);
       update_reach(world, slot);  // it goes nowhere now
     }
+    world.bodies.travel[body].old_reach = false;
     world.gathering.sleep.push_back({{body, info.generation}, true});
   }
 }

@@ -223,21 +223,28 @@ void collide_pair(WorldState& world, std::size_t index, std::vector<Contact>& ou
   const bool some_awake = bodies.is_awake(pair.body_a) || bodies.is_awake(pair.body_b);
   const bool clear = stays_clear(world, pair) && !pair.touching && !pair.one_way;
   found = {.first = static_cast<std::uint32_t>(out.size()), .memory = pair.memory};
-  const bool meet = some_awake && !clear && overlaps(world.reach[slot_a], world.reach[slot_b]);
-  if (!meet) {
-    if (!clear) found.memory.gap = gap_of(world.reach[slot_a], world.reach[slot_b]);
+  const auto keep_apart = [&](bool parted) {
     // A sensor that came to rest goes on seeing what sleeps in it.
     found.overlaps = pair.sensor && pair.touching && !some_awake;
-    found.gone = boxes_have_parted(world, slot_a, slot_b) || (!some_awake && !found.overlaps);
-    return;
+    found.gone = parted || (!some_awake && !found.overlaps);
+  };
+  if (clear || !some_awake) return keep_apart(boxes_have_parted(world, slot_a, slot_b));
+  const auto margin_for = [&](Real reach) { return tolerance::kMarginSlops * pair.slop + reach; };
+  if (!pair.sensor && pair.contact_count > 0) {
+    const Real reach = reach_of(world, pair);
+    if (recycle(world, pair, margin_for(reach), reach)) {
+      found.count = pair.contact_count;
+      found.kept = true;
+      return;
+    }
   }
-  const Real reach = reach_of(world, pair);
-  const Real margin = tolerance::kMarginSlops * pair.slop + reach;
-  if (!pair.sensor && recycle(world, pair, margin, reach)) {
-    found.count = pair.contact_count;
-    found.kept = true;
-    return;
+  found.asked = true;
+  const WorldAabb reach_a = reach_now(world, slot_a), reach_b = reach_now(world, slot_b);
+  if (!overlaps(reach_a, reach_b)) {
+    found.memory.gap = gap_of(reach_a, reach_b);
+    return keep_apart(boxes_have_parted(world, slot_a, slot_b));
   }
+  const Real margin = margin_for(reach_of(world, pair));
   const ColliderInfo& a = world.colliders.info[slot_a];
   const ColliderInfo& b = world.colliders.info[slot_b];
   const PosVec reference =
@@ -358,6 +365,8 @@ void take_findings(WorldState& world) {
       std::copy(contacts.begin(), contacts.end(), to.begin() + pair.first_contact);
     }
     if (found.kept) ++world.report.kept_pairs;
+    if (found.asked)
+      world.bodies.travel[pair.body_a].asked = world.bodies.travel[pair.body_b].asked = true;
     pair.contact_count = found.count;
     pair.touching = found.count > 0 || found.overlaps;
     pair.passage = found.passage;

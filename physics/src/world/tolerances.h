@@ -129,5 +129,12 @@ inline constexpr unsigned kPairGrain = 64;
 inline constexpr unsigned kSweepGrain = 4;
 inline constexpr unsigned kBlockGrain = 16;  // blocks of up to 16 rows
 inline constexpr unsigned kRowGrain = 64;
+// Rows of bodies that go through the substeps apart from others (step_groups.h) [-]: rows of 500
+// bytes and bodies of 300 that fit together into half a megabyte, of which most processors have as
+// much or more for each core. So many are gathered; fewer are not worth a group of their own; who
+// has more gains more from threads that share its colours.
+inline constexpr unsigned kRowsApart = 512;
+inline constexpr unsigned kFewestRowsApart = 128;
+inline constexpr unsigned kMostRowsApart = 1024;
 
 }  // namespace plumb::inline PLUMB_ABI::detail::tolerance

@@ -10,9 +10,9 @@
 #include "math/eigen_bridge.h"
 #include "plumb/world.h"
 #include "solver/adhesion.h"
-#include "solver/contact_blocks.h"
 #include "solver/contact_row.h"
 #include "solver/newton/choose.h"
+#include "solver/step_groups.h"
 #include "solver/surface_drive.h"
 #include "solver/turned_rows.h"
 #include "solver/turning_row.h"
@@ -87,6 +87,7 @@ struct SceneCounts {
 struct PairFindings {
   std::uint32_t first = 0, count = 0;  // contacts, within its chunk's list ...
   bool kept = false;                   // ... or those of the last step, told anew where they lie
+  bool asked = false;                  // for the reach of its colliders
   bool gone = false;                   // the bounds are apart, or all sleeps
   bool overlaps = false;               // sensors: whether they see the other
   Passage passage = Passage::Apart;
@@ -109,7 +110,7 @@ struct ColorRange {
 // Of a flagged body that moved far: its place among those, a collider of another one near its path.
 using FastOthers = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-enum class BodyWay : std::uint8_t { Other, Held, Free };
+enum class BodyWay : std::uint8_t { None, Other, Held, Free };
 
 struct WorldState {
   WorldSettings settings;
@@ -156,7 +157,6 @@ struct WorldState {
   std::vector<SpinningRow> spinning_rows;
   std::vector<TurnedRow> turned_rows;
   std::vector<AdhesiveRow> adhesive_rows;
-  std::vector<std::uint32_t> spun_rows;
   std::shared_ptr<newton::Solver> newton;      // null until a step calls for it
   newton::Calls newton_calls;                  // of the last step
   std::vector<TurningRow<Real>> turning_rows;  // of the rows that resist turning
@@ -164,7 +164,7 @@ struct WorldState {
   std::vector<SubstepBody> substep;            // per dense index
   std::vector<std::uint8_t> contacts_changed;  // per dense index: other points carry load now
   std::vector<BodyWay> body_ways;              // per dense index
-  ContactBlocks blocks;
+  StepGroups groups;
   std::vector<std::uint64_t> color_mask;  // per dense index
   std::vector<std::uint32_t> parents;     // union-find, per slot
   std::vector<std::uint64_t> new_keys;
@@ -194,15 +194,19 @@ struct WorldState {
 };
 
 // Runs task(begin, end) over [0, count), on the job system where there is one and it is worth it.
-inline void parallel_for(const WorldState& world, std::uint32_t count, std::uint32_t grain,
+inline void parallel_for(JobSystem* jobs, std::uint32_t count, std::uint32_t grain,
                          const RangeTask& task) {
   if (count == 0) return;
-  if (world.jobs == nullptr || count <= grain) {
+  if (jobs == nullptr || count <= grain) {
     for (std::uint32_t begin = 0; begin < count; begin += grain)
       task(begin, begin + grain < count ? begin + grain : count);
   } else {
-    world.jobs->parallel_for(count, grain, task);
+    jobs->parallel_for(count, grain, task);
   }
+}
+inline void parallel_for(const WorldState& world, std::uint32_t count, std::uint32_t grain,
+                         const RangeTask& task) {
+  parallel_for(world.jobs, count, grain, task);
 }
 
 // [s] The next step, as far as is known: as the last one, before the first as most scenes' are.
@@ -260,9 +264,10 @@ void update_proxy(WorldState& world, std::uint32_t collider, bool force);
 // Its two halves: whether the collider may leave its box in the next step, and a new box. Only the
 // first may run for several colliders at once.
 bool leaves_proxy(WorldState& world, std::uint32_t collider);
-// The same for one of an awake body that nothing but gravity acts on: does not look closely at what
-// is near nothing.
-bool may_leave_proxy(WorldState& world, std::uint32_t collider);
+// Whether some collider of an awake body may; does not look closely at what surely stays.
+bool may_leave_boxes(WorldState& world, std::uint32_t body);
+// The reach of a collider as update_reach would find it.
+WorldAabb reach_now(const WorldState& world, std::uint32_t collider);
 void give_proxy(WorldState& world, std::uint32_t collider);
 // The box of all places that a collider may take in the next step; returns its body's path [m].
 PosVec update_reach(WorldState& world, std::uint32_t collider);
