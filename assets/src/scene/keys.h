@@ -20,6 +20,7 @@ inline constexpr std::string_view kScene[] = {
 inline constexpr std::string_view kStep[] = {"dt", "rate", "duration"};
 inline constexpr std::string_view kSettings[] = {"gravity",
                                                  "substeps",
+                                                 "step_tolerance",
                                                  "contact_frequency",
                                                  "contact_damping_ratio",
                                                  "rotation",

@@ -62,6 +62,7 @@ void read_settings(const JsonNode& node, WorldSettings& settings, Problems& prob
   if (!in.is_object()) return;
   in.vector("gravity", settings.gravity, kGravityRange);
   in.integer("substeps", settings.substeps, 1, kMostSubsteps);
+  in.number("step_tolerance", settings.step_tolerance, kNotNegative);
   in.number("contact_frequency", settings.contact_frequency, kPositive);
   in.number("contact_damping_ratio", settings.contact_damping_ratio, kNotNegative);
   in.choice("rotation", kRotationMethods, settings.rotation);

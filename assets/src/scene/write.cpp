@@ -73,6 +73,7 @@ Json json_of(const PlanChoices& forced) {
 Json json_of(const WorldSettings& settings) {
   Json out{{"gravity", list(settings.gravity)},
            {"substeps", settings.substeps},
+           {"step_tolerance", tidy(settings.step_tolerance)},
            {"contact_frequency", tidy(settings.contact_frequency)},
            {"contact_damping_ratio", tidy(settings.contact_damping_ratio)},
            {"rotation", word(scene::kRotationMethods, settings.rotation)},

@@ -49,6 +49,7 @@ struct StepReport {
   std::uint32_t deep_bodies = 0;     // that overlap deeply, or touch what does
   std::uint32_t direct_joints = 0;   // solved with all that hang together with them, at once
   std::uint32_t joint_substeps = 0;  // of joint groups beyond the world's own
+  std::uint32_t coarse_bodies = 0;   // with fewer substeps than the world's (step_tolerance)
 
   // Of the accurate solver (ContactSolver::Newton), over all substeps; zero where it is not used.
   std::uint32_t newton_islands = 0;         // solved by it

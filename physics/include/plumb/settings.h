@@ -75,6 +75,12 @@ struct WorldSettings {
   // Solver steps within one step [-] 1..64. Contacts and joints stiffen and errors shrink with
   // their number; cost grows with it. 4: stacks of ten stand at 60 Hz.
   int substeps = 4;
+  // Level of detail in time: by how much a step may err in any island [m] >= 0, finite. Islands
+  // that keep to it with fewer solver steps get half of `substeps`, a quarter, ... (two at least),
+  // by what their last steps told of their errors (src/solver/step_levels.h); what something new
+  // strikes gets as many as the blow needs. What joints, effects, bounces or the accurate solver
+  // take part in, or has over a thousand contacts, has all of them. 0: everything has.
+  Real step_tolerance = Real(0);
   // How fast overlap is worked off: the natural frequency [Hz] > 0 and damping ratio [-] >= 0 of a
   // contact seen as a spring. Limited to a quarter of the substep rate. [Catto 2024]
   Real contact_frequency = Real(30);

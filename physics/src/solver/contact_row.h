@@ -67,6 +67,14 @@ struct Softness {
 };
 Softness make_softness(Real frequency, Real damping_ratio, Real masses, Real h);
 
+struct WorldState;
+template <class T>
+struct ContactRow;
+// Makes a row's softness that of substeps of a length [s] (rows.cpp).
+void soften_row(const WorldState& world, ContactRow<Real>& row, Real h);
+// [s] the longest substep that can follow the row's contact at its full stiffness.
+Real longest_substep(const WorldState& world, const ContactRow<Real>& row);
+
 // What the kernel iterates on: nothing but numbers, so that the rows of a block can be turned into
 // lanes. T is one number or W of them side by side, P the points there is room for.
 template <class T, int P>

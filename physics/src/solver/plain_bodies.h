@@ -45,38 +45,59 @@ inline void choose_body_ways(WorldState& world) {
 
 class PlainBodies {
  public:
-  // The bodies of a group, or all that are awake.
-  PlainBodies(WorldState& world, BlockKernel kernel, const StepGroup& group)
-      : PlainBodies(world, kernel, group.bodies, group.jobs, group.number) {}
-  PlainBodies(WorldState& world, BlockKernel kernel)
-      : PlainBodies(world, kernel, {world.bodies.awake_begin, world.bodies.awake_end}, world.jobs,
-                    kAllGroups) {}
-
-  // Each runs the kernel on what goes that way; task(i) on what the kernel leaves, and on bodies
-  // that go no plain way.
-  template <class Task>
-  void fly(Task&& task) {
-    sweep(BodyWay::Free, task, [&](std::uint32_t first, std::uint32_t which) {
-      return kernel_.fly(pass_, first, which);
-    });
+  // The bodies of a group; it keeps their chunks.
+  PlainBodies(WorldState& world, BlockKernel kernel, StepGroup& group)
+      : PlainBodies(world, kernel, group.h) {
+    jobs_ = group.jobs;
+    chunks_ = &group.chunks;
+    group.chunks.clear();
+    if (world.groups.all_fly) return;
+    const std::uint32_t lanes = static_cast<std::uint32_t>(kernel_.lanes);
+    for (std::uint32_t first = group.bodies.begin; first < group.bodies.end; first += lanes) {
+      const BodyChunk chunk =
+          chunk_at(first, group.bodies.end, BodyWay::Held,
+                   [&](std::uint32_t i) { return world.groups.group_of[i] == group.number; });
+      if ((chunk.kernel | chunk.alone) != 0) group.chunks.push_back(chunk);
+    }
   }
+
+  // All that are awake and held by nothing fly through the step; task(i) those that the kernel
+  // leaves.
   template <class Task>
-  void kick(Task&& task) {
-    sweep(BodyWay::Held, task, [&](std::uint32_t first, std::uint32_t which) {
+  static void fly(WorldState& world, BlockKernel kernel, Task&& task) {
+    const PlainBodies bodies(world, kernel, world.h);
+    const std::uint32_t first_body = world.bodies.awake_begin;
+    parallel_for(world, world.bodies.awake_end - first_body, tolerance::kBodyGrain,
+                 [&](std::uint32_t begin, std::uint32_t end) {
+                   const std::uint32_t lanes = static_cast<std::uint32_t>(kernel.lanes);
+                   for (std::uint32_t first = begin; first < end; first += lanes)
+                     bodies.run(bodies.chunk_at(first_body + first, first_body + end, BodyWay::Free,
+                                                [](std::uint32_t) { return true; }),
+                                task, [&](std::uint32_t at, std::uint32_t which) {
+                                  return kernel.fly(bodies.pass_, at, which);
+                                });
+                 });
+  }
+
+  // Each runs the kernel on what goes the plain way; task(i) on what the kernel leaves, and on
+  // bodies that go no plain way.
+  template <class Task>
+  void kick(Task&& task) const {
+    sweep(task, [&](std::uint32_t first, std::uint32_t which) {
       kernel_.kick(pass_, first, which);
       return 0u;
     });
   }
   template <class Task>
-  void drift(Task&& task) {
-    sweep(BodyWay::Held, task, [&](std::uint32_t first, std::uint32_t which) {
+  void drift(Task&& task) const {
+    sweep(task, [&](std::uint32_t first, std::uint32_t which) {
       return kernel_.drift(pass_, first, which);
     });
   }
   // weight(i) [s] of the trapezoid.
   template <class Weight, class Task>
-  void finish(Weight&& weight, Task&& task) {
-    sweep(BodyWay::Held, task, [&](std::uint32_t first, std::uint32_t which) {
+  void finish(Weight&& weight, Task&& task) const {
+    sweep(task, [&](std::uint32_t first, std::uint32_t which) {
       Real weights[BlockHead::kMostLanes]{};
       for (std::uint32_t left = which; left != 0; left &= left - 1) {
         const std::uint32_t lane = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -88,11 +109,7 @@ class PlainBodies {
   }
 
  private:
-  static constexpr std::uint32_t kAllGroups = kNone;
-
-  PlainBodies(WorldState& world, BlockKernel kernel, IndexRange range, JobSystem* jobs,
-              std::uint32_t group)
-      : world_(world), kernel_(kernel), range_(range), jobs_(jobs), group_(group) {
+  PlainBodies(WorldState& world, BlockKernel kernel, Real h) : world_(world), kernel_(kernel) {
     BodyStore& bodies = world.bodies;
     static_assert(sizeof(BodyVelocity) == 8 * sizeof(Real) &&
                   sizeof(BodyDelta) == 8 * sizeof(Real) &&
@@ -107,49 +124,57 @@ class PlainBodies {
     pass_.mass = &bodies.mass.data()->inverse_mass.x;
     pass_.force = &bodies.force.data()->force.x;
     pass_.substep = &world.substep.data()->v_start.x;
-    pass_.h = world.h;
+    pass_.h = h;
     pass_.dt = world.dt;
   }
 
-  [[nodiscard]] bool is_mine(std::uint32_t i) const {
-    return group_ == kAllGroups || world_.groups.group_of[i] == group_;
-  }
-  template <class Task, class Run>
-  void sweep(BodyWay way, Task&& task, Run&& run) {
-    if (world_.groups.all_fly && way != BodyWay::Free) return;
-    parallel_for(jobs_, range_.end - range_.begin, tolerance::kBodyGrain,
-                 [&](std::uint32_t begin, std::uint32_t end) {
-                   sweep_chunk(range_.begin + begin, range_.begin + end, way, task, run);
-                 });
-  }
-  template <class Task, class Run>
-  void sweep_chunk(std::uint32_t begin, std::uint32_t end, BodyWay way, Task&& task, Run&& run) {
+  template <class Mine>
+  [[nodiscard]] BodyChunk chunk_at(std::uint32_t first, std::uint32_t end, BodyWay way,
+                                   Mine&& mine) const {
     const std::uint32_t lanes = static_cast<std::uint32_t>(kernel_.lanes);
-    for (std::uint32_t first = begin; first < end; first += lanes) {
-      const std::uint32_t count = std::min(lanes, end - first);
-      std::uint32_t which = 0, others = 0;
-      for (std::uint32_t k = 0; k < count; ++k) {
-        const BodyWay its = is_mine(first + k) ? world_.body_ways[first + k] : BodyWay::None;
-        which |= (its == way ? 1u : 0u) << k;
-        others |= (its == BodyWay::Other ? 1u : 0u) << k;
-      }
-      // The kernel reads all its lanes: not past the last body.
-      if (lanes == 1 || count < lanes) {
-        others |= which;
-      } else if (which != 0) {
-        others |= run(first, which);
-      }
-      for (; others != 0; others &= others - 1)
-        task(first + static_cast<std::uint32_t>(std::countr_zero(others)));
+    const std::uint32_t count = std::min(lanes, end - first);
+    BodyChunk chunk{.first = first};
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (!mine(first + k)) continue;
+      chunk.kernel |= (world_.body_ways[first + k] == way ? 1u : 0u) << k;
+      chunk.alone |= (world_.body_ways[first + k] == BodyWay::Other ? 1u : 0u) << k;
     }
+    if (lanes > 1 && count == lanes) return chunk;
+    // The kernel reads all its lanes: not past the last body.
+    chunk.alone |= chunk.kernel;
+    chunk.kernel = 0;
+    return chunk;
+  }
+  template <class Task, class Run>
+  void run(const BodyChunk& chunk, Task&& task, Run&& kernel) const {
+    std::uint32_t left = chunk.alone;
+    if (chunk.kernel != 0) left |= kernel(chunk.first, chunk.kernel);
+    for (; left != 0; left &= left - 1)
+      task(chunk.first + static_cast<std::uint32_t>(std::countr_zero(left)));
+  }
+  template <class Task, class Run>
+  void sweep(Task&& task, Run&& kernel) const {
+    const std::uint32_t grain =
+        std::max(tolerance::kBodyGrain / static_cast<std::uint32_t>(kernel_.lanes), 1u);
+    parallel_for(jobs_, static_cast<std::uint32_t>(chunks_->size()), grain,
+                 [&](std::uint32_t begin, std::uint32_t end) {
+                   for (std::uint32_t k = begin; k < end; ++k) run((*chunks_)[k], task, kernel);
+                 });
   }
 
   WorldState& world_;
   BlockKernel kernel_;
-  IndexRange range_;
-  JobSystem* jobs_;
-  std::uint32_t group_;
+  JobSystem* jobs_ = nullptr;
+  const std::vector<BodyChunk>* chunks_ = nullptr;
   BodyPass pass_;
 };
+
+// Calls task(dense) for the bodies of a group that its substeps concern.
+template <class Task>
+void for_bodies_of(const StepGroup& group, Task&& task) {
+  for (const BodyChunk& chunk : group.chunks)
+    for (std::uint32_t left = chunk.kernel | chunk.alone; left != 0; left &= left - 1)
+      task(chunk.first + static_cast<std::uint32_t>(std::countr_zero(left)));
+}
 
 }  // namespace plumb::inline PLUMB_ABI::detail

@@ -87,22 +87,34 @@ void make_points(ContactRow<Real>& row, const Contact& contact, Vec center, Real
   }
 }
 
+}  // namespace
+
+// [Hz] of a contact, for it to sink no more than its share, however short the substep must be.
+static Real wanted_frequency(const WorldState& world, const ContactRow<Real>& row) {
+  const Real thickness = row.push_speed / tolerance::kPushRate;
+  const Real pull = static_cast<Real>(world.settings.gravity.norm()) / thickness;
+  const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
+  return world.settings.contact_frequency * stiffer;
+}
+
+Real longest_substep(const WorldState& world, const ContactRow<Real>& row) {
+  const Real masses = row.both_dynamic ? tolerance::kContactMasses : Real(1);
+  return tolerance::kStiffestContact / (wanted_frequency(world, row) * std::sqrt(masses));
+}
+
 // A contact sinks by g/w^2 under its load: for no size to sink more than its share, w^2 must follow
 // g / thickness, as far as the substep allows [Catto 2024].
-void soften(const RowContext& context, ContactRow<Real>& row, Real thickness) {
-  const WorldState& world = context.world;
-  const Real pull = context.gravity / thickness;
-  const Real stiffer = std::sqrt(std::max(pull / tolerance::kReferencePull, Real(1)));
-  const Real stiffest = tolerance::kStiffestContact / world.h;
-  Real frequency = std::min(world.settings.contact_frequency * stiffer, stiffest);
+void soften_row(const WorldState& world, ContactRow<Real>& row, Real h) {
+  const Real stiffest = tolerance::kStiffestContact / h;
+  Real frequency = std::min(wanted_frequency(world, row), stiffest);
   if (!row.both_dynamic) frequency *= tolerance::kStaticStiffness;
   const Real damping = world.settings.contact_damping_ratio;
-  const Softness in_turn = make_softness(frequency, damping, Real(1), world.h);
+  const Softness in_turn = make_softness(frequency, damping, Real(1), h);
   Softness at_once = in_turn;
   if (row.both_dynamic) {
     const Real room = stiffest / frequency;  // a spring of s masses is sqrt(s) times as fast
-    at_once = make_softness(frequency, damping, std::min(tolerance::kContactMasses, room * room),
-                            world.h);
+    at_once =
+        make_softness(frequency, damping, std::min(tolerance::kContactMasses, room * room), h);
   }
   row.bias_rate = at_once.bias_rate;
   row.mass_scale = at_once.mass_scale;
@@ -110,8 +122,6 @@ void soften(const RowContext& context, ContactRow<Real>& row, Real thickness) {
   row.mass_scale_in_turn = in_turn.mass_scale;
   row.impulse_scale_in_turn = in_turn.impulse_scale;
 }
-
-}  // namespace
 
 void fill_responses(ContactRow<Real>& row) { make_responses(row); }
 
@@ -247,8 +257,8 @@ void build_row(const RowContext& context, ContactRow<Real>& row, std::uint32_t c
   row.friction = pair.friction;
   row.restitution = pair.restitution;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
-  soften(context, row, thickness);
   row.push_speed = tolerance::kPushRate * thickness;
+  soften_row(world, row, world.h);
   row.push_speed_now = row.push_speed;
   // What overlaps is no collision to come: it must approach faster than resting bodies to bounce.
   Real deepest = 0;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "effects/effect_world.h"
+#include "solver/step_levels.h"
 #include "solver/worst_first.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -13,15 +14,19 @@ namespace {
 
 // Whether some stage between the passes concerns all bodies.
 bool concerns_all(const WorldState& world) {
-  return world.diagnostics.ledger || resolves_worst_first(world) ||
+  // The ledger is kept of one group after the other where that is not the same as all together.
+  const bool levels = world.settings.step_tolerance > Real(0);
+  return (world.diagnostics.ledger && !levels) || resolves_worst_first(world) ||
          (world.effects != nullptr && !world.effects->empty());
 }
 
 // What is known of a body, or of all from it to the last one that rows tie to it.
 struct Tie {
-  std::uint32_t last = 0;  // dense
-  std::uint32_t rows = 0;  // that end here: hold no earlier body
-  bool special = false;    // takes part in a stage of its own
+  std::uint32_t last = 0;                           // dense
+  std::uint32_t rows = 0;                           // that end here: hold no earlier body
+  bool special = false;                             // takes part in a stage of its own
+  Real approach = 0;                                // [m/s] the fastest of what begins to touch
+  Real longest = std::numeric_limits<Real>::max();  // [s] substep that its contacts bear
 };
 
 class Grouping {
@@ -41,7 +46,7 @@ class Grouping {
       add_tied(begin, end);
       begin = end;
     }
-    end_run();
+    for (Run& run : runs_) end_run(run);
     deal_rows();
   }
 
@@ -59,6 +64,9 @@ class Grouping {
       ties_[first].last = std::max(ties_[first].last, last);
       ++ties_[first].rows;
       if (!is_plain(world_, row)) ties_[first].special = true;
+      if (!levels_) continue;
+      ties_[first].approach = std::max(ties_[first].approach, row.approach_speed);
+      ties_[first].longest = std::min(ties_[first].longest, longest_substep(world_, row));
     }
   }
 
@@ -85,31 +93,48 @@ class Grouping {
   void add_tied(std::uint32_t begin, std::uint32_t end) {
     std::uint32_t rows = 0;
     bool special = false;
+    Real approach = 0, longest = std::numeric_limits<Real>::max();
     for (std::uint32_t i = begin; i < end; ++i) {
       rows += ties_[i].rows;
       special = special || ties_[i].special;
+      approach = std::max(approach, ties_[i].approach);
+      longest = std::min(longest, ties_[i].longest);
     }
     // What has no rows flies: no substep concerns it.
     if (special || rows > tolerance::kMostRowsApart || rows == 0) return;
-    if (run_rows_ == 0) run_.begin = begin;
-    run_.end = end;
-    run_rows_ += rows;
-    std::fill(group_of_.begin() + begin, group_of_.begin() + end, run_number());
-    if (run_rows_ >= tolerance::kRowsApart) end_run();
+    const int halvings =
+        levels_ ? halvings_for(world_, wanted_halvings(begin, end), approach, longest) : 0;
+    Run& run = runs_[halvings];
+    if (run.rows == 0) {
+      groups_.apart.push_back({.bodies = {begin, end}, .rows = {}, .halvings = halvings});
+      run.number = static_cast<std::uint32_t>(groups_.apart.size());
+    }
+    groups_.apart[run.number - 1].bodies.end = end;
+    run.rows += rows;
+    std::fill(group_of_.begin() + begin, group_of_.begin() + end, run.number);
+    if (run.rows >= most_rows_) end_run(run);
   }
 
-  [[nodiscard]] std::uint32_t run_number() const {
-    return static_cast<std::uint32_t>(groups_.apart.size()) + 1;
+  [[nodiscard]] int wanted_halvings(std::uint32_t begin, std::uint32_t end) const {
+    int wanted = kMostHalvings;
+    for (std::uint32_t i = begin; i < end; ++i)
+      wanted = std::min(wanted, int{world_.bodies.info[world_.bodies.slot_of[i]].level.halvings});
+    return wanted;
   }
-  void end_run() {
-    if (run_rows_ == 0) return;
-    if (run_rows_ < tolerance::kFewestRowsApart) {
-      std::replace(group_of_.begin() + run_.begin, group_of_.begin() + run_.end, run_number(),
+
+  // A group that is being gathered; one for each level of detail.
+  struct Run {
+    std::uint32_t number = 0, rows = 0;
+  };
+  void end_run(Run& run) {
+    if (run.rows == 0) return;
+    if (run.rows < fewest_rows_) {  // nothing is left of it
+      IndexRange& bodies = groups_.apart[run.number - 1].bodies;
+      std::replace(group_of_.begin() + bodies.begin, group_of_.begin() + bodies.end, run.number,
                    kTogether);
-    } else {
-      groups_.apart.push_back({run_, {}});
+      bodies.end = bodies.begin;
     }
-    run_rows_ = 0;
+    run = {};
   }
 
   void deal_rows() {
@@ -138,10 +163,15 @@ class Grouping {
 
   WorldState& world_;
   StepGroups& groups_;
+  static constexpr int kMostHalvings = 6;  // of 64 substeps
+  // With levels of detail every island counts, and the ledger is kept of few groups.
+  const bool levels_ = world_.settings.step_tolerance > Real(0);
+  const std::uint32_t fewest_rows_ = levels_ ? 1 : tolerance::kFewestRowsApart;
+  const std::uint32_t most_rows_ =
+      world_.diagnostics.ledger ? std::numeric_limits<std::uint32_t>::max() : tolerance::kRowsApart;
   std::vector<std::uint32_t>& group_of_;
-  StepList<Tie> ties_;          // per dense body
-  IndexRange run_;              // the group that is being gathered
-  std::uint32_t run_rows_ = 0;  // in it
+  StepList<Tie> ties_;  // per dense body
+  Run runs_[kMostHalvings + 1];
 };
 
 void find_bouncing_bodies(WorldState& world) {
@@ -170,9 +200,12 @@ void find_groups(WorldState& world) {
   groups.group_of.assign(world.bodies.awake_end, kTogether);
   groups.together.bodies = {world.bodies.awake_begin, world.bodies.awake_end};
   groups.together.rows.clear();
+  groups.together.substeps = world.settings.substeps;
+  groups.together.h = world.h;
   groups.together.jobs = world.jobs;
   find_bouncing_bodies(world);
-  if (world.rows.size() >= 2 * tolerance::kFewestRowsApart && !concerns_all(world)) {
+  const bool levels = world.settings.step_tolerance > Real(0);
+  if ((levels || world.rows.size() >= 2 * tolerance::kFewestRowsApart) && !concerns_all(world)) {
     Grouping(world).group();
     return;
   }

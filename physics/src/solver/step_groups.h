@@ -23,13 +23,24 @@ namespace plumb::inline PLUMB_ABI::detail {
 
 inline constexpr std::uint32_t kTogether = 0;  // those that go apart are numbered from 1
 
+// Bodies side by side in memory, as many as the kernel has lanes, and which of them are a group's.
+struct BodyChunk {
+  std::uint32_t first = 0;              // dense
+  std::uint32_t kernel = 0, alone = 0;  // bits: taken by the kernel, by themselves
+};
+
 struct StepGroup {
   std::uint32_t number = kTogether;
+  int halvings = 0;  // of the world's substeps (step_levels.h)
+  int substeps = 0;
+  Real h = 0;                            // [s] of each
   IndexRange bodies;                     // dense; others may lie among them
+  std::vector<BodyChunk> chunks;         // that hold some of them (plain_bodies.h)
   std::vector<std::uint32_t> rows;       // ascending, so by colour
   std::vector<std::uint32_t> spun_rows;  // of them (turned_rows.h)
   ContactBlocks blocks;
-  JobSystem* jobs = nullptr;  // who shares its loops
+  JobSystem* jobs = nullptr;     // who shares its loops
+  std::uint32_t body_count = 0;  // only with a tolerance
 };
 
 struct StepGroups {
@@ -37,8 +48,10 @@ struct StepGroups {
   // Built, run and gone one after the other, in a StepGroup of the thread that runs it. Among their
   // bodies lie only such that go together, which are at rest meanwhile.
   struct Apart {
-    IndexRange bodies, rows;  // dense; of `rows` below
-    bool spun = false;        // some body was set spinning
+    IndexRange bodies, rows;       // dense; of `rows` below
+    int halvings = 0;              // of the world's substeps
+    bool spun = false;             // some body was set spinning
+    std::uint32_t body_count = 0;  // only with a tolerance
   };
   std::vector<Apart> apart;
   std::vector<std::uint32_t> rows;      // of all that are apart

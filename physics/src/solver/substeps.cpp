@@ -27,6 +27,7 @@
 #include "solver/row_end.h"
 #include "solver/row_velocities.h"
 #include "solver/step_groups.h"
+#include "solver/step_levels.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "solver/worst_first.h"
@@ -71,7 +72,7 @@ BlockPass pass_over_blocks(WorldState& world, StepGroup& group) {
   pass.velocity = &world.bodies.velocity.data()->v.x;
   pass.delta = &world.delta.data()->dp.x;
   pass.contacts_changed = world.contacts_changed.data();
-  pass.inverse_h = Real(1) / world.h;
+  pass.inverse_h = Real(1) / group.h;
   return pass;
 }
 
@@ -96,21 +97,21 @@ class RowCharge {
 // Bodies that only joints hold have a loop of their own (joints/joint_flight.cpp).
 bool in_contact_loop(const SubstepBody& s) { return s.constrained && !s.split; }
 
-void drift_body(WorldState& world, std::uint32_t i) {
+void drift_body(WorldState& world, std::uint32_t i, Real h) {
   if (in_contact_loop(world.substep[i])) {
-    drift(world, i, world.h);
+    drift(world, i, h);
     world.bodies.velocity[i].load = Real(0);
     world.bodies.velocity[i].sliding_load = Real(0);
   } else if (!(world.bodies.mass[i].mass > Real(0))) {  // kinematic: as told
     BodyDelta& delta = world.delta[i];
-    delta.dp += world.h * world.bodies.velocity[i].v;
-    delta.dq = normalized(from_rotation_vector(world.h * world.bodies.velocity[i].w) * delta.dq);
+    delta.dp += h * world.bodies.velocity[i].v;
+    delta.dq = normalized(from_rotation_vector(h * world.bodies.velocity[i].w) * delta.dq);
   }
 }
 
 // How much of what the rows took from the velocities counts backwards [s]; ends the substep's
 // notes.
-Real trapezoid_weight(WorldState& world, std::uint32_t i) {
+Real trapezoid_weight(WorldState& world, std::uint32_t i, Real h) {
   SubstepBody& s = world.substep[i];
   const bool changed = world.contacts_changed[i] != 0;
   world.contacts_changed[i] = 0;
@@ -118,14 +119,14 @@ Real trapezoid_weight(WorldState& world, std::uint32_t i) {
   if (changed || s.jointed) return Real(0);
   const BodyVelocity& velocity = world.bodies.velocity[i];
   const Real theta = velocity.load > Real(0) ? velocity.sliding_load / velocity.load : Real(1);
-  return Real(0.5) * world.h * theta;
+  return Real(0.5) * h * theta;
 }
 
-void finish_body(WorldState& world, std::uint32_t i) {
+void finish_body(WorldState& world, std::uint32_t i, Real h) {
   SubstepBody& s = world.substep[i];
   if (!in_contact_loop(s)) return;
   collect_momentum(world, i);
-  const Real weight = trapezoid_weight(world, i);
+  const Real weight = trapezoid_weight(world, i, h);
   BodyDelta& delta = world.delta[i];
   delta.dp += weight * (s.v_start - world.bodies.velocity[i].v);
   const Vec lost = s.L_start - world.bodies.momentum[i].L;
@@ -305,7 +306,7 @@ void fly_body(WorldState& world, std::uint32_t i) {
 }
 
 void fly_free_bodies(WorldState& world, BlockKernel kernel) {
-  PlainBodies(world, kernel).fly([&](std::uint32_t i) { fly_body(world, i); });
+  PlainBodies::fly(world, kernel, [&](std::uint32_t i) { fly_body(world, i); });
 }
 
 // The stages that a group has besides the plain passes over its bodies and rows.
@@ -331,19 +332,25 @@ ExtraStages extra_stages_of(const WorldState& world) {
 void run_group(WorldState& world, StepGroup& group, const ExtraStages& has) {
   const int extra_passes = has.deep ? tolerance::kDeepRelaxPasses - 1 : 0;
   const int iterations = world.settings.velocity_iterations;
+  const Real h = group.h;
+  if (has.ledger) {
+    world.ledger.group = group.number;
+    world.ledger.h = static_cast<double>(h);
+  }
   fill_blocks(world, group);
   const BlockKernel kernel = group.blocks.kernel;
   BlockPass pass = pass_over_blocks(world, group);
   PlainBodies bodies(world, kernel, group);
   DeepBodies deep(world, has.deep);
-  for (int substep = 0; substep < world.settings.substeps; ++substep) {
+  StepErrors errors(world, group);
+  for (int substep = 0; substep < group.substeps; ++substep) {
     if (has.effects) act_effects(world);
     if (has.effects && has.ledger) charge_effects(world);
     if (has.running_surfaces) carry_drives(world);
     if (has.bounces) run_impacts(world);
     if (has.ledger) charge_bounces(world);
     bodies.kick([&](std::uint32_t i) {
-      if (in_contact_loop(world.substep[i])) kick(world, i, world.h);
+      if (in_contact_loop(world.substep[i])) kick(world, i, h);
     });
     if (has.fast_turns) renew_turned_rows(world);
     if (has.bounces) renew_bouncing_rows(world);
@@ -351,7 +358,7 @@ void run_group(WorldState& world, StepGroup& group, const ExtraStages& has) {
     if (has.ledger) charge_kick(world);
     if (has.adhesion) pull_together(world);
     if (has.joints) fly_joint_groups(world);
-    if (has.ledger) charge_joint_flight(world);
+    if (has.ledger && group.number == kTogether) charge_joint_flight(world);
     if (has.joints) warm_start_joints(world);
     if (has.ledger) charge(world, &EnergyLedger::joints);
     for_rows_by_color(world, group, pass, kernel.warm, [&](ContactRow<Real>& row) {
@@ -376,7 +383,7 @@ void run_group(WorldState& world, StepGroup& group, const ExtraStages& has) {
     if (has.newton) solve_newton_islands(world);
     if (has.ledger) charge(world, &EnergyLedger::normal);
     if (has.deep) deep.note_tumbling();
-    bodies.drift([&](std::uint32_t i) { drift_body(world, i); });
+    bodies.drift([&](std::uint32_t i) { drift_body(world, i, h); });
     if (has.ledger) charge_drift(world);
     if (has.fast_turns) renew_turned_rows(world);
     if (has.bounces) renew_bouncing_rows(world);
@@ -404,35 +411,58 @@ void run_group(WorldState& world, StepGroup& group, const ExtraStages& has) {
     relax(true, false);
     if (has.worst_first) resolve_worst_first(world);
     if (has.ledger) charge(world, &EnergyLedger::normal);
-    bodies.finish([&](std::uint32_t i) { return trapezoid_weight(world, i); },
-                  [&](std::uint32_t i) { finish_body(world, i); });
+    bodies.finish([&](std::uint32_t i) { return trapezoid_weight(world, i, h); },
+                  [&](std::uint32_t i) { finish_body(world, i, h); });
     if (has.effects) settle_effects(world);
     if (has.ledger) charge_finish(world);
+    errors.note_substep();
   }
   empty_blocks(world, group);
+  group.body_count = errors.settle();
   if (!has.deep) return;
   world.report.deep_bodies = deep.bodies_that_gained();
   deep.list_tumblers();
 }
 
-// The groups that go apart, each by one thread from its first substep to its last.
-void run_groups_apart(WorldState& world, RowCalls& calls) {
+// One group that goes apart, from its rows as they were built to their impulses as they are kept.
+void run_apart(WorldState& world, std::uint32_t k, RowCalls& calls) {
+  static thread_local StepGroup group;  // kept for its storage, which stays cached
   StepGroups& groups = world.groups;
-  parallel_for(world, static_cast<std::uint32_t>(groups.apart.size()), 1,
-               [&](std::uint32_t begin, std::uint32_t end) {
-                 static thread_local StepGroup group;  // kept for its storage, which stays cached
-                 for (std::uint32_t i = begin; i < end; ++i) {
-                   StepGroups::Apart& apart = groups.apart[i];
-                   group.number = i + 1;
-                   group.bodies = apart.bodies;
-                   group.rows.assign(groups.rows.begin() + apart.rows.begin,
-                                     groups.rows.begin() + apart.rows.end);
-                   group.spun_rows.clear();
-                   run_group(world, group, {});
-                   store_impulses(world, group, calls);
-                   apart.spun = !group.spun_rows.empty();
-                 }
-               });
+  StepGroups::Apart& apart = groups.apart[k];
+  group.number = k + 1;
+  group.halvings = apart.halvings;
+  group.substeps = world.settings.substeps >> apart.halvings;
+  group.h = static_cast<Real>(1 << apart.halvings) * world.h;
+  group.bodies = apart.bodies;
+  group.rows.assign(groups.rows.begin() + apart.rows.begin, groups.rows.begin() + apart.rows.end);
+  group.spun_rows.clear();
+  if (apart.halvings > 0)
+    for (const std::uint32_t row : group.rows) coarsen_row(world, world.rows[row], apart.halvings);
+  run_group(world, group, {.ledger = world.diagnostics.ledger});
+  if (apart.halvings > 0)
+    for (const std::uint32_t row : group.rows) refine_row(world.rows[row], apart.halvings);
+  store_impulses(world, group, calls);
+  apart.spun = !group.spun_rows.empty();
+  apart.body_count = group.body_count;
+}
+
+// The groups that go apart, each by one thread from its first substep to its last; one level of
+// detail after the other, since those of different levels lie among one another.
+void run_groups_apart(WorldState& world, RowCalls& calls) {
+  std::vector<StepGroups::Apart>& groups = world.groups.apart;
+  const bool levels = world.settings.step_tolerance > Real(0);
+  if (levels) {
+    world.step_errors.resize(world.bodies.awake_end);
+    forget_levels_together(world);
+  }
+  for (int level = levels ? most_halvings(world.settings.substeps) : 0; level >= 0; --level)
+    parallel_for(world, static_cast<std::uint32_t>(groups.size()), 1,
+                 [&](std::uint32_t begin, std::uint32_t end) {
+                   for (std::uint32_t k = begin; k < end; ++k)
+                     if (groups[k].halvings == level) run_apart(world, k, calls);
+                 });
+  for (const StepGroups::Apart& apart : groups)
+    if (apart.halvings > 0) world.report.coarse_bodies += apart.body_count;
 }
 
 }  // namespace
@@ -454,10 +484,10 @@ void run_substeps(WorldState& world) {
   world.tumbled.clear();
   StepGroup& together = world.groups.together;
   run_group(world, together, has);
+  run_groups_apart(world, calls);
   world.jobs = jobs;
   if (has.effects) end_effects(world);
   store_impulses(world, together, calls);
-  run_groups_apart(world, calls);
   calls.tell(world);
   count_what_acted(world);
   if (has.joints) store_joints(world);

@@ -6,6 +6,7 @@
 #include "solver/body_substep.h"
 #include "solver/contact_kernel.h"
 #include "solver/newton/newton_solver.h"
+#include "solver/plain_bodies.h"
 #include "solver/row_end.h"
 #include "world/forced.h"
 #include "world/tolerances.h"
@@ -197,16 +198,16 @@ bool find_spun_bodies(WorldState& world, const StepGroup& group) {
   const Real limit = fast_turn(world);
   bool any = false;
   if (group.rows.empty()) return false;
-  for (std::uint32_t i = group.bodies.begin; i < group.bodies.end; ++i) {
+  for_bodies_of(group, [&](std::uint32_t i) {
     const Vec w = world.bodies.velocity[i].w;
-    if (!(world.dt * length(w) > limit) || world.groups.group_of[i] != group.number) continue;
+    if (!(world.dt * length(w) > limit)) return;
     SubstepBody& s = world.substep[i];
     const BodyMass& mass = world.bodies.mass[i];
-    if (!s.constrained || s.split || s.turned || s.spun || is_isotropic(mass)) continue;
-    if (newton && in_newton_island(world, i)) continue;
+    if (!s.constrained || s.split || s.turned || s.spun || is_isotropic(mass)) return;
+    if (newton && in_newton_island(world, i)) return;
     s.spun = world.dt * visible_turning(mass, orientation_now(world, i), w) > limit;
     any |= s.spun;
-  }
+  });
   return any;
 }
 
@@ -232,8 +233,9 @@ bool renew_spun_rows(WorldState& world, StepGroup& group) {
     fill_blocks(world, group);
   }
   if (group.spun_rows.empty()) return found;
-  for (std::uint32_t i = group.bodies.begin; i < group.bodies.end; ++i)
-    if (world.substep[i].spun && world.groups.group_of[i] == group.number) turn_inertia(world, i);
+  for_bodies_of(group, [&](std::uint32_t i) {
+    if (world.substep[i].spun) turn_inertia(world, i);
+  });
   for (const std::uint32_t k : group.spun_rows) {
     ContactRow<Real>& row = world.rows[k];
     row.watched = true;

@@ -65,6 +65,12 @@ struct BodyTravel {  // 20 / 40
 
 // --- by slot: read when something is built, asked for, or ends -----------------------------------
 
+// How many substeps a body's island gets (solver/step_levels.h).
+struct StepLevel {
+  std::uint8_t halvings = 0;    // of the world's substeps
+  std::uint8_t calm_steps = 0;  // in a row in which half as many would have done
+};
+
 struct BodyInfo {  // what states are read by comes first
   std::uint64_t user_data = 0;
   std::uint32_t generation = 0;
@@ -80,6 +86,7 @@ struct BodyInfo {  // what states are read by comes first
   Rotation R_BP{0, 0, 0, 1};     // principal axes in B
   std::uint32_t island = kNone;  // sleeping island, or kNone
   Real rest_time = 0;            // [s] at rest without a break
+  StepLevel level;
   // Of the choice of the accurate solver (newton/choose.h), in steps: in a row in which it has
   // called; for which it stays with it; for which its calls are not heard; in a row in which its
   // island took more than its share.

@@ -32,6 +32,7 @@ void step_twin(WorldState& world, const PhysicsWorld& original, double dt) {
   }
   WorldSettings finer = world.settings;
   finer.substeps *= 2;
+  finer.step_tolerance = Real(0);
   if (!world.twin->set_settings(finer).ok()) return;
   world.twin->set_job_system(world.jobs);
   world.twin->step(dt);

@@ -123,12 +123,13 @@ void append(std::vector<double>& out, const std::optional<MaterialPair>& values)
 }
 void append(std::vector<double>& out, const WorldSettings& s) {
   append(out, s.gravity);
-  append_all(out, {static_cast<double>(s.substeps), as_number(s.contact_frequency),
-                   as_number(s.contact_damping_ratio), static_cast<double>(s.rotation),
-                   s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0, as_number(s.time_to_sleep),
-                   s.profiling ? 1.0 : 0.0, static_cast<double>(s.contact_solver),
-                   static_cast<double>(s.joint_order), static_cast<double>(s.velocity_iterations),
-                   static_cast<double>(s.friction_cone)});
+  append_all(out,
+             {static_cast<double>(s.substeps), as_number(s.step_tolerance),
+              as_number(s.contact_frequency), as_number(s.contact_damping_ratio),
+              static_cast<double>(s.rotation), s.warm_starting ? 1.0 : 0.0, s.sleeping ? 1.0 : 0.0,
+              as_number(s.time_to_sleep), s.profiling ? 1.0 : 0.0,
+              static_cast<double>(s.contact_solver), static_cast<double>(s.joint_order),
+              static_cast<double>(s.velocity_iterations), static_cast<double>(s.friction_cone)});
   append_long(out, s.forced.items_off());
   append_long(out, s.forced.items_on());
 }
@@ -266,6 +267,7 @@ WorldSettings NumberReader::settings() {
   WorldSettings s;
   s.gravity = vector();
   s.substeps = static_cast<int>(word());
+  s.step_tolerance = real();
   s.contact_frequency = real();
   s.contact_damping_ratio = real();
   s.rotation = choice<RotationMethod>(*this, kRotationMethodCount, ok_);

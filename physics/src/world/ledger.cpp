@@ -8,7 +8,11 @@ namespace {
 Sum wide(Vec v) { return cast<double>(v); }
 void add(Eigen::Vector3d& entry, Sum v) { entry += Eigen::Vector3d(v.x, v.y, v.z); }
 
-bool in_loop(const SubstepBody& s) { return s.constrained && !s.split; }
+// Whether rows hold it in the substeps of the group that runs.
+bool in_loop(const WorldState& world, std::uint32_t i) {
+  const SubstepBody& s = world.substep[i];
+  return s.constrained && !s.split && world.groups.group_of[i] == world.ledger.group;
+}
 bool dynamic(const WorldState& world, std::uint32_t i) {
   return world.bodies.mass[i].mass > Real(0);
 }
@@ -27,7 +31,7 @@ double kinetic_of(const WorldState& world, std::uint32_t i) {
   const bool held = s.constrained && world.ledger.in_substeps;
   const Rotation q = held ? orientation_now(world, i) : world.bodies.pose[i].q;
   Vec L = world.bodies.momentum[i].L;
-  if (world.ledger.pending && in_loop(s)) L += s.I * (velocity.w - s.w_in);
+  if (world.ledger.pending && in_loop(world, i)) L += s.I * (velocity.w - s.w_in);
   const Sum v = wide(velocity.v);
   return 0.5 * static_cast<double>(m.mass) * dot(v, v) +
          0.5 * dot(wide(angular_velocity_of(m, q, L)), wide(L));
@@ -178,13 +182,13 @@ void charge_joint_flight(WorldState& world) {
 
 void charge_kick(WorldState& world) {
   LedgerBook& book = world.ledger;
-  const double h = static_cast<double>(world.h);
+  const double h = book.h;
   book.pending = true;
   Totals change = take_change(world);
   bool damped = false;
   for_dynamic(world, [&](std::uint32_t i) {
     const SubstepBody& s = world.substep[i];
-    if (!in_loop(s)) return;
+    if (!in_loop(world, i)) return;
     const BodyForce& f = world.bodies.force[i];
     damped = damped || f.linear_damping > Real(0) || f.angular_damping > Real(0);
     const Sum mean = 0.5 * (wide(s.v_start) + wide(world.bodies.velocity[i].v));
@@ -223,10 +227,10 @@ void charge_finish(WorldState& world) {
   book.pending = false;
   charge(world, &EnergyLedger::integrator);
   // The velocities that push out of overlap act for the drift and are gone after the relaxation.
-  const double h = static_cast<double>(world.h);
+  const double h = book.h;
   for_dynamic(world, [&](std::uint32_t i) {
     const SubstepBody& s = world.substep[i];
-    if (!in_loop(s) || s.jointed || !(world.bodies.velocity[i].load > Real(0))) return;
+    if (!in_loop(world, i) || s.jointed || !(world.bodies.velocity[i].load > Real(0))) return;
     const Sum pushed = h * wide(book.drifted[i] - world.bodies.velocity[i].v);
     book.energy.recovery -=
         static_cast<double>(world.bodies.mass[i].mass) * dot(gravity_on(world, i), pushed);

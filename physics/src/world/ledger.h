@@ -20,6 +20,8 @@ struct LedgerBook {
   double start = 0;             // [J] when the step began
   Sum linear_start{0, 0, 0};    // [kg m/s]
   double credited_gravity = 0;  // [J] by which kicks and flights explained what they changed
+  std::uint32_t group = 0;      // whose substeps run (solver/step_groups.h)
+  double h = 0;                 // [s] of its substeps
   bool in_substeps = false;     // poses are those of the step's start plus delta
   bool pending = false;         // rows have changed w, L has not been told yet
   std::vector<Vec> place;       // [m] per dense body: dp at the last charge

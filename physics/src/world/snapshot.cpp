@@ -28,6 +28,7 @@ void visit_world(Table& t, WorldState& world) {
   WorldSettings& s = world.settings;
   t("gravity", s.gravity.x(), s.gravity.y(), s.gravity.z());
   t("substeps", s.substeps);
+  t("step_tolerance", s.step_tolerance);
   t("contact_spring", s.contact_frequency, s.contact_damping_ratio);
   t("rotation", s.rotation);
   t("contact_solver", s.contact_solver);
@@ -55,6 +56,7 @@ void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentu
     i.locks.angular_y, i.locks.angular_z);
   t("island", i.island);
   t("rest_time", i.rest_time);
+  t("step_level", i.level.halvings, i.level.calm_steps);
   t("newton_calls", i.newton_calls);
   t("newton_steps", i.newton_steps);
   t("newton_pause", i.newton_pause);

@@ -140,6 +140,8 @@ Status check(const WorldSettings& s) {
   if (!s.gravity.allFinite()) return {StatusCode::NotFinite, "gravity is not finite [m/s^2]"};
   if (s.substeps < 1 || s.substeps > 64)
     return {StatusCode::OutOfRange, "substeps must lie in 1..64"};
+  if (!std::isfinite(s.step_tolerance) || s.step_tolerance < 0)
+    return {StatusCode::OutOfRange, "step tolerance must be finite and not negative [m]"};
   if (!std::isfinite(s.contact_frequency) || s.contact_frequency <= 0)
     return {StatusCode::OutOfRange, "contact frequency must be finite and positive [Hz]"};
   if (!std::isfinite(s.contact_damping_ratio) || s.contact_damping_ratio < 0)

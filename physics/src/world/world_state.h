@@ -110,7 +110,15 @@ struct ColorRange {
 // Of a flagged body that moved far: its place among those, a collider of another one near its path.
 using FastOthers = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-enum class BodyWay : std::uint8_t { None, Other, Held, Free };
+enum class BodyWay : std::uint8_t { Other, Held, Free };
+
+// What rows did to a body in a substep, and by how much that differed from the one before, summed
+// over the step (solver/step_levels.h).
+struct StepError {
+  Vec dv{0, 0, 0};  // [m/s]
+  Real sum = 0;     // [m/s] at the body's farthest point
+  Vec dL{0, 0, 0};  // [kg m^2/s]
+};
 
 struct WorldState {
   WorldSettings settings;
@@ -165,6 +173,7 @@ struct WorldState {
   std::vector<std::uint8_t> contacts_changed;  // per dense index: other points carry load now
   std::vector<BodyWay> body_ways;              // per dense index
   StepGroups groups;
+  std::vector<StepError> step_errors;     // per dense index; only with a tolerance
   std::vector<std::uint64_t> color_mask;  // per dense index
   std::vector<std::uint32_t> parents;     // union-find, per slot
   std::vector<std::uint64_t> new_keys;
