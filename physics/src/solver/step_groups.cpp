@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "effects/effect_world.h"
 #include "solver/step_levels.h"
 #include "solver/worst_first.h"
 #include "world/tolerances.h"
@@ -16,8 +15,7 @@ namespace {
 bool concerns_all(const WorldState& world) {
   // The ledger is kept of one group after the other where that is not the same as all together.
   const bool levels = world.settings.step_tolerance > Real(0);
-  return (world.diagnostics.ledger && !levels) || resolves_worst_first(world) ||
-         (world.effects != nullptr && !world.effects->empty());
+  return (world.diagnostics.ledger && !levels) || resolves_worst_first(world);
 }
 
 // What is known of a body, or of all from it to the last one that rows tie to it.

@@ -122,8 +122,8 @@ inline constexpr Real kRestSizesPerSecond = Real(1e-3);
 // of loaded contact points changed (rounding leaves such impulses in bodies that fall together).
 inline constexpr Real kLoadedFraction = Real(1e-6);
 
-// Level of detail in time (step_levels.h). An island keeps at least so many substeps [-], so that its
-// own steps tell of their error.
+// Level of detail in time (step_levels.h). An island keeps at least so many substeps [-], so that
+// its own steps tell of their error.
 inline constexpr int kFewestSubsteps = 2;
 // It gets half as many once so many steps in a row [-] have erred by less than this share of the
 // tolerance [-]: with steps twice as long errors of second order are four times as large, and half

@@ -74,6 +74,9 @@ void build(PhysicsWorld& world, Order order) {
     for (int layer = 0; layer < 3; ++layer)
       for (int island = 0; island < kIslands; ++island) make(island, layer);
   }
+  // Some fall through thick air.
+  for (std::size_t island = 0; island < kIslands; island += 2 * kKinds)
+    must(world.create_effect({bodies[3 * island + 2], Drag{.quadratic = real(50)}, 0}));
   // Two of the plain islands hang together by a joint.
   Joint rope;
   rope.body_a = bodies[2];
