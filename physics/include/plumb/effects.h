@@ -186,7 +186,7 @@ struct EffectLedger {
   struct Row {
     std::size_t kind = 0;     // index in EffectKind
     std::uint32_t count = 0;  // effects
-    std::uint32_t acted = 0;  // (effect, body) pairs of the last step
+    std::uint32_t acted = 0;  // (effect, body) pairs whose motion it showed in
     double potential = 0;     // [J]
     double step_work = 0;     // [J]
     double work = 0;          // [J] of those that exist

@@ -45,8 +45,8 @@ struct StepReport {
   std::uint32_t continuous = 0;    // bodies that would have passed something and were stopped at it
 
   std::uint32_t kept_pairs = 0;      // whose contacts were taken over from an earlier step
-  std::uint32_t fast_turning = 0;    // contacts told anew within the step: a body turns fast
-  std::uint32_t deep_bodies = 0;     // that overlap deeply, or touch what does
+  std::uint32_t fast_turning = 0;    // contacts that bore something after a fast turn was told
+  std::uint32_t deep_bodies = 0;     // deep in others, and visibly relaxed more than once
   std::uint32_t direct_joints = 0;   // solved with all that hang together with them, at once
   std::uint32_t joint_substeps = 0;  // of joint groups beyond the world's own
   std::uint32_t coarse_bodies = 0;   // with fewer substeps than the world's (step_tolerance)
