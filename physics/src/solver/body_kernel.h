@@ -49,8 +49,9 @@ MaskOf<T> turn_by_one_piece(Quaternion<T>& q, Vector3<T> L, Vector3<T> J, T h) {
   const Vector3<T> g = ((T(Real(0.5)) * turn) / select(turns, J_largest, T(Real(1)))) * J;
   const Vector3<T> n = inverse_rotate(q, direction);
   // The enclosed angle is small against the turn itself: a tenth is room enough.
-  const MaskOf<T> takes = turns & (dot(n, multiply_each(g, n)) < T(Real(0.9) * kSmallAngle)) &
-                          (tumble_squared(n, g) < T(kLimit * kLimit / Real(4)));
+  MaskOf<T> takes = turns;
+  takes &= dot(n, multiply_each(g, n)) < T(Real(0.9) * kSmallAngle);
+  takes &= tumble_squared(n, g) < T(kLimit * kLimit / Real(4));
   const Quaternion<T> turned = normalized(q * midpoint_turn<Real>(n, g, sin_cos_of_small<T>));
   q = {select(takes, turned.x, q.x), select(takes, turned.y, q.y), select(takes, turned.z, q.z),
        select(takes, turned.w, q.w)};
