@@ -228,7 +228,7 @@ TEST(Demos, Fracture) {
 
 // The ragdoll falls and its joints stay within 1 cm. How its limbs strike the ground hangs on the
 // last digit of the start: of sixteen starts that differ by 1e-5 m/s, one pulls a joint farther,
-// by 1.1 cm. That is a frontier, not the bar: it may only become smaller.
+// by 1.1 cm, and that is the demo's own: it misses the bar. A frontier: it may only become smaller.
 TEST(Demos, Ragdoll) {
   int farther = 0;
   for (int k = 0; k < 16; ++k) {
