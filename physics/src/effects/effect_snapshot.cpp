@@ -77,6 +77,7 @@ bool restore_effects(const Snapshot& in, WorldState& world) {
     if (slot >= store.info.size() || store.info[slot].alive) return false;
     store.free_slots.push_back(static_cast<std::uint32_t>(slot));
   }
+  note_effects(world);
   return true;
 }
 

@@ -16,6 +16,7 @@ void end_effects(WorldState& world);     // the step done
 
 // --- between steps ---
 Status check_effect(const WorldState& world, const Effect& effect);
+void note_effects(WorldState& world);  // after any was made or taken away
 void remove_effects_of(WorldState& world, std::uint32_t body);
 // Kinematic bodies sleep alone: when one is moved, what springs tie to it wakes.
 void wake_tied(WorldState& world, std::uint32_t body);

@@ -353,8 +353,7 @@ void build_rows(WorldState& world) {
     const Pair& pair = world.pairs[contact.pair];
     held[bodies.dense_of[pair.body_a]] = held[bodies.dense_of[pair.body_b]] = 1;
   }
-  const bool all_inertias = !world.joints.empty() || world.diagnostics.ledger ||
-                            (world.effects != nullptr && !world.effects->empty());
+  const bool all_inertias = !world.joints.empty() || world.diagnostics.ledger || world.has_effects;
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;

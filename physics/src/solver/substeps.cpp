@@ -316,7 +316,7 @@ struct ExtraStages {
   bool deep = false;  // some bodies overlap deeply
 };
 ExtraStages extra_stages_of(const WorldState& world) {
-  return {.effects = world.effects != nullptr && !world.effects->empty(),
+  return {.effects = world.has_effects,
           .joints = !world.joints.empty(),
           .newton = world.newton != nullptr && world.newton->count > 0,
           .worst_first = resolves_worst_first(world),

@@ -64,8 +64,7 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
     const Real pulled =
         length(multiply_each(bodies.mass[body.dense].inverse_mass, bodies.force[body.dense].force));
     around += world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
-    const bool pushed = world.effects != nullptr && !world.effects->empty() &&
-                        length_squared(body.acceleration) > Real(0);
+    const bool pushed = world.has_effects && length_squared(body.acceleration) > Real(0);
     if (pushed)
       around += world.dt * world.dt * length(body.acceleration - gravity_on(world, body.dense));
     path = world.dt * velocity.v;
@@ -116,14 +115,13 @@ PosVec update_reach(WorldState& world, std::uint32_t slot) {
 
 bool may_leave_boxes(WorldState& world, std::uint32_t body) {
   if (stays_in_boxes(world, body)) return false;
-  const bool effects = world.effects != nullptr && !world.effects->empty();
   bool leaves = false, to_turn = true;
   PosReal room = std::numeric_limits<PosReal>::max();
   for (const std::uint32_t slot : world.bodies.info[body].colliders) {
     const ColliderInfo& collider = world.colliders.info[slot];
     const WorldAabb& box = world.trees.of(collider).box(collider.proxy);
     BoxNotes& notes = world.box_notes[slot];
-    if (!notes.paired && !effects) {
+    if (!notes.paired && !world.has_effects) {
       const WorldAabb ball = ball_of_reach(world, collider);
       if (contains(box, ball)) {
         notes.old_reach = true;

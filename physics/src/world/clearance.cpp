@@ -59,7 +59,7 @@ bool stays_clear(const WorldState& world, Pair& pair) {
 }
 
 bool stays_in_boxes(WorldState& world, std::uint32_t body) {
-  if (world.effects != nullptr && !world.effects->empty()) return false;
+  if (world.has_effects) return false;
   BodyTravel& travel = world.bodies.travel[body];
   // What pairs ask for again and again is better renewed once.
   const bool asked = std::exchange(travel.asked, false);

@@ -50,7 +50,7 @@ void link_touching(WorldState& world) {
       link(world.parents, pair.body_a, pair.body_b);
   }
   if (!world.joints.empty()) link_joined(world);
-  if (world.effects != nullptr && !world.effects->empty()) link_tied(world);
+  if (world.has_effects) link_tied(world);
 }
 
 // A body must be this slow to count as resting [m/s].
@@ -222,7 +222,7 @@ void wake_body(WorldState& world, std::uint32_t body) {
   if (info.island == kNone) {
     world.bodies.wake(body);
     if (!world.joints.empty()) wake_joined(world, body);
-    if (world.effects != nullptr && !world.effects->empty()) wake_tied(world, body);
+    if (world.has_effects) wake_tied(world, body);
     return;
   }
   world.sleeping_contacts.forget();

@@ -60,6 +60,8 @@ double total_potential(const WorldState& world, const EffectInfo& effect) {
 
 }  // namespace
 
+void note_effects(WorldState& world) { world.has_effects = !world.effects->empty(); }
+
 void remove_effects_of(WorldState& world, std::uint32_t body) {
   EffectStore& store = *world.effects;
   for (std::uint32_t slot = 0; slot < store.info.size(); ++slot) {
@@ -71,6 +73,7 @@ void remove_effects_of(WorldState& world, std::uint32_t body) {
     store.destroy(slot);
   }
   store.forget_surface(body);
+  note_effects(world);
 }
 
 void wake_tied(WorldState& world, std::uint32_t body) {
@@ -136,6 +139,7 @@ Created<EffectId> PhysicsWorld::create_effect(const Effect& effect) {
                      [&](auto& out) { detail::append(out, effect); });
   detail::EffectStore& store = detail::store_of(world);
   const std::uint32_t slot = store.create(effect);
+  detail::note_effects(world);
   detail::wake_reached(world, store.info[slot]);
   return {store.id(slot), {}};
 }
@@ -161,6 +165,7 @@ Status PhysicsWorld::destroy_effect(EffectId effect) {
   detail::note_input(world, InputKind::DestroyEffect, effect.value(), [](auto&) {});
   detail::wake_reached(world, world.effects->info[effect.index]);
   world.effects->destroy(effect.index);
+  detail::note_effects(world);
   return {};
 }
 

@@ -134,6 +134,7 @@ struct WorldState {
   JointStore joints;
   ContactData contact_data;
   std::shared_ptr<EffectStore> effects;  // null until there was one
+  bool has_effects = false;              // there is one now; kept by note_effects()
   std::vector<SensorOverlap> overlaps;   // after the last step, ascending
   std::vector<SleepingIsland> islands;
   std::vector<std::uint32_t> free_islands;
