@@ -62,9 +62,14 @@ void carry_impulses(Contact& contact, const Contact& old, Real thickness) {
   }
 }
 
+bool is_tied(const WorldState& world, std::uint32_t body) {
+  return world.bodies.info[body].type == MotionType::Dynamic && !world.joints.at_body(body).empty();
+}
+
 // How far the surfaces of a slow pair may approach within one step [m]. What may come nearer than
 // that is swept, or else stopped after the step (continuous.cpp): a contact made across a wide gap
-// has long arms and a normal of the wrong moment, and throws bodies about.
+// has long arms and a normal of the wrong moment, and throws bodies about. What a joint ties is
+// seen coming from farther away: stopped after the step, it would be torn from what it is tied to.
 Real reach_of(const WorldState& world, const Pair& pair) {
   const BodyInfo& a = world.bodies.info[pair.body_a];
   const BodyInfo& b = world.bodies.info[pair.body_b];
@@ -73,7 +78,10 @@ Real reach_of(const WorldState& world, const Pair& pair) {
   const Real speed = length(vb.v - va.v) + length(va.w) * a.radius + length(vb.w) * b.radius;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   // Surfaces are not followed after the step: they are seen coming from as far as it takes.
-  const Real near = pair.on_surface ? kUnbounded : tolerance::kSweptFraction * thickness;
+  const bool tied =
+      !world.joints.empty() && (is_tied(world, pair.body_a) || is_tied(world, pair.body_b));
+  const Real fraction = tied ? tolerance::kTiedReach : tolerance::kSweptFraction;
+  const Real near = pair.on_surface ? kUnbounded : fraction * thickness;
   return std::min(world.dt * speed, near) + world.falls_in_a_step;
 }
 

@@ -20,7 +20,7 @@ inline constexpr GoldenHash kGoldenHashes[] = {
     {0x1d0b6eeffa74b333, 0xeb693c31b35f5482, 0xa0290bbce52e801c},  // pile
     {0x8f8ac0508cb2d150, 0xdd161c8933d55e53, 0xe7f975ef7c74567a},  // cluster
     {0x8dfdf6d8b5706ee8, 0x9b4ded355a69da4, 0x2b06a648695912e8},   // bouncing
-    {0x4352d96a2e91dbcc, 0x54adeb4f6732d4a9, 0x31c942ecabee8c7d},  // bridge
+    {0xa8f498a58e114c39, 0x3a38c150ceb23d19, 0x8f4d2a918bf52a8e},  // bridge
     {0xc4aa68e0fd281ace, 0xb53692fa70a59a41, 0x93209a701aad2c3e},  // hills
     {0x27bb8b95c4fe25bd, 0x57e1223490b56f80, 0x2cdb39e9da1542b1},  // heavy above light
 };
