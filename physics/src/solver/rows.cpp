@@ -312,12 +312,17 @@ void build_turning_rows(WorldState& world) {
   }
 }
 
-void begin_body(WorldState& world, std::uint32_t i, bool held, bool needs_inertia,
+// How contacts hold a body.
+constexpr std::uint8_t kFree = 0, kHeld = 1, kDriven = 2;
+
+void begin_body(WorldState& world, std::uint32_t i, std::uint8_t hold, bool needs_inertia,
                 RowContext& context) {
   BodyStore& bodies = world.bodies;
   world.delta[i] = {};
   SubstepBody& s = world.substep[i];
   s = {};
+  const bool held = (hold & kHeld) != 0;
+  s.driven = (hold & kDriven) != 0;
   const BodyMass& m = bodies.mass[i];
   s.acceleration = multiply_each(m.inverse_mass, bodies.force[i].force);
   if (m.mass > Real(0)) {
@@ -348,24 +353,20 @@ void build_rows(WorldState& world) {
   world.contacts_changed.assign(bodies.awake_end, 0);
   // Bodies first: what a row reads of them, and which of them are held by a row. What nothing holds
   // flies, and needs no inertia in world axes.
-  StepList<std::uint8_t> held(bodies.dense_count(), 0, &world.memory);
-  for (const Contact& contact : world.contacts) {
-    const Pair& pair = world.pairs[contact.pair];
-    held[bodies.dense_of[pair.body_a]] = held[bodies.dense_of[pair.body_b]] = 1;
+  StepList<std::uint8_t> held(bodies.dense_count(), kFree, &world.memory);
+  for (const Pair& pair : world.pairs) {
+    if (pair.contact_count == 0) continue;
+    const auto hold = static_cast<std::uint8_t>(pair.driven ? kHeld | kDriven : kHeld);
+    held[bodies.dense_of[pair.body_a]] |= hold;
+    held[bodies.dense_of[pair.body_b]] |= hold;
   }
   const bool all_inertias = !world.joints.empty() || world.diagnostics.ledger || world.has_effects;
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;
                       ++i)
-                   begin_body(world, i, held[i] != 0, all_inertias, context);
+                   begin_body(world, i, held[i], all_inertias, context);
                });
-  for (const Contact& contact : world.contacts) {
-    const Pair& pair = world.pairs[contact.pair];
-    if (!pair.driven) continue;
-    world.substep[bodies.dense_of[pair.body_a]].driven = true;
-    world.substep[bodies.dense_of[pair.body_b]].driven = true;
-  }
   if (!world.joints.empty()) build_joints(world);
   world.rows.resize(count);
   parallel_for(world, count, tolerance::kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {

@@ -136,22 +136,23 @@ class Grouping {
   }
 
   void deal_rows() {
-    const auto group_of = [&](const ContactRow<Real>& row) {
-      return group_of_[std::max(row.body_a, row.body_b)];
-    };
-    for (const ContactRow<Real>& row : world_.rows)
-      if (const std::uint32_t group = group_of(row); group != kTogether)
-        ++groups_.apart[group - 1].rows.end;
+    const auto count = static_cast<std::uint32_t>(world_.rows.size());
+    StepList<std::uint32_t> group_of_row(count, kTogether, &world_.memory);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const ContactRow<Real>& row = world_.rows[k];
+      const std::uint32_t group = group_of_[std::max(row.body_a, row.body_b)];
+      group_of_row[k] = group;
+      if (group != kTogether) ++groups_.apart[group - 1].rows.end;
+    }
     std::uint32_t before = 0;
     for (StepGroups::Apart& apart : groups_.apart) {
-      const std::uint32_t count = apart.rows.end;
+      const std::uint32_t of_group = apart.rows.end;
       apart.rows = {before, before};
-      before += count;
+      before += of_group;
     }
     groups_.rows.resize(before);
-    for (std::uint32_t k = 0; k < world_.rows.size(); ++k) {
-      const std::uint32_t group = group_of(world_.rows[k]);
-      if (group == kTogether) {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (const std::uint32_t group = group_of_row[k]; group == kTogether) {
         groups_.together.rows.push_back(k);
       } else {
         groups_.rows[groups_.apart[group - 1].rows.end++] = k;

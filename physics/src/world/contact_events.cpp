@@ -21,6 +21,25 @@ void note_contact(WorldState& world, const Pair& pair, ContactEvent::Kind kind) 
                                       {pair.body_b, world.bodies.info[pair.body_b].generation}});
 }
 
+// Whether a pair touches after the step: surfaces are within a slop or push; no more when no point
+// is left within the margin. Its contacts get to know.
+bool touches_now(Pair& pair, std::vector<Contact>& store) {
+  if (pair.sensor || !pair.touching) return pair.touching;
+  const std::span<Contact> contacts = contacts_of(pair, store);
+  Real nearest = std::numeric_limits<Real>::max(), impulse = 0;
+  for (const Contact& contact : contacts) {
+    for (int k = 0; k < contact.manifold.count; ++k) {
+      nearest = std::min(nearest, contact.manifold.points[k].separation);
+      impulse = std::max(impulse, contact.step_normal_impulse[k]);
+    }
+  }
+  const bool now = impulse > Real(0) || nearest <= pair.slop ||
+                   (pair.was_touching && nearest <= tolerance::kMarginSlops * pair.slop);
+  const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
+  for (Contact& contact : contacts) contact.seen_from = now ? seen_from : kNone;
+  return now;
+}
+
 }  // namespace
 
 SensorOverlap overlap_of(const WorldState& world, const Pair& pair) {
@@ -39,28 +58,20 @@ void note_pair_end(WorldState& world, const Pair& pair) {
   }
 }
 
-// Begin when surfaces are within a slop or push; end when no point is left within the margin.
+// Who has begun or ended is found by all threads and told in the order of the pairs.
 void note_contact_events(WorldState& world) {
-  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
-    Pair& pair = world.pairs[i];
-    bool now = pair.was_touching && pair.touching;
-    if (pair.sensor) {
-      now = pair.touching;
-    } else if (pair.touching) {
-      Real nearest = std::numeric_limits<Real>::max(), impulse = 0;
-      for (const Contact& contact : contacts_of(pair, world.contacts)) {
-        for (int k = 0; k < contact.manifold.count; ++k) {
-          nearest = std::min(nearest, contact.manifold.points[k].separation);
-          impulse = std::max(impulse, contact.step_normal_impulse[k]);
-        }
-      }
-      now = impulse > Real(0) || nearest <= pair.slop ||
-            (pair.was_touching && nearest <= tolerance::kMarginSlops * pair.slop);
-      const std::uint32_t seen_from = pair.relative_to_b ? pair.body_b : pair.body_a;
-      for (Contact& contact : contacts_of(pair, world.contacts))
-        contact.seen_from = now ? seen_from : kNone;
+  const auto count = static_cast<std::uint32_t>(world.pairs.size());
+  StepList<std::uint8_t> changed(count, 0, &world.memory);
+  parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      Pair& pair = world.pairs[i];
+      changed[i] = touches_now(pair, world.contacts) != pair.was_touching ? 1 : 0;
     }
-    if (now == pair.was_touching) continue;
+  });
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (changed[i] == 0) continue;
+    Pair& pair = world.pairs[i];
+    const bool now = !pair.was_touching;
     pair.was_touching = now;
     if (now) pair.began = static_cast<std::uint32_t>(world.step_count);
     if (pair.sensor) {

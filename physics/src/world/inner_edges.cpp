@@ -170,18 +170,33 @@ void follow_faces(WorldState& world, std::span<const Touch> group, std::span<con
   }
 }
 
+// Which colliders of a touching pair may have flush neighbours.
+constexpr std::uint8_t kOfA = 1, kOfB = 2;
+std::uint8_t neighboured_sides(const WorldState& world, const Pair& pair) {
+  if (pair.contact_count == 0) return 0;
+  const ColliderInfo& a = world.colliders.info[pair.collider_a()];
+  const ColliderInfo& b = world.colliders.info[pair.collider_b()];
+  if (is_surface(a.shape.type) || is_surface(b.shape.type)) return 0;
+  return static_cast<std::uint8_t>((may_have_neighbours(world, a) ? kOfA : 0) |
+                                   (may_have_neighbours(world, b) ? kOfB : 0));
+}
+
 void list_touches(WorldState& world, StepList<Touch>& touches) {
-  for (std::uint32_t k = 0; k < world.contacts.size(); ++k) {
-    const Pair& pair = world.pairs[world.contacts[k].pair];
-    const ColliderInfo& a = world.colliders.info[pair.collider_a()];
-    const ColliderInfo& b = world.colliders.info[pair.collider_b()];
-    if (is_surface(a.shape.type) || is_surface(b.shape.type)) continue;
-    const auto list = [&](const ColliderInfo& piece, std::uint32_t mover, bool of_b) {
-      if (may_have_neighbours(world, piece))
-        touches.push_back({mover, is_static(world, piece.body) ? kNone : piece.body, k, of_b});
+  const auto count = static_cast<std::uint32_t>(world.pairs.size());
+  StepList<std::uint8_t> sides(count, 0, &world.memory);
+  parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) sides[i] = neighboured_sides(world, world.pairs[i]);
+  });
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (sides[i] == 0) continue;
+    const Pair& pair = world.pairs[i];
+    const auto list = [&](std::uint32_t piece, std::uint32_t mover, std::uint32_t k, bool of_b) {
+      touches.push_back({mover, is_static(world, piece) ? kNone : piece, k, of_b});
     };
-    list(a, pair.body_b, false);
-    list(b, pair.body_a, true);
+    for (std::uint32_t k = pair.first_contact; k < pair.first_contact + pair.contact_count; ++k) {
+      if ((sides[i] & kOfA) != 0) list(pair.body_a, pair.body_b, k, false);
+      if ((sides[i] & kOfB) != 0) list(pair.body_b, pair.body_a, k, true);
+    }
   }
 }
 

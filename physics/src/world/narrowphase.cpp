@@ -348,30 +348,26 @@ bool contacts_stay_in_place(const WorldState& world) {
   return next == world.contacts.size();
 }
 
-// Replaces the last step's contacts by those found now, and drops pairs whose bounds have parted.
-void take_findings(WorldState& world) {
-  const bool in_place = contacts_stay_in_place(world);
-  std::vector<Contact>& to = in_place ? world.contacts : world.new_contacts;
-  world.new_contacts.clear();
-  std::size_t index = 0;
-  std::uint32_t remaining = 0;
+// Where the contacts of a pair come from: it was `pair` among the pairs as they were, and its kept
+// contacts begin at `first_contact` among the last step's.
+struct ContactSource {
+  std::uint32_t pair = 0, first_contact = 0;
+};
+
+// Pairs take what was found of them; those whose bounds have parted go. Returns how many contacts
+// there are now. In place, they lie where they lay.
+std::uint32_t take_findings_of_pairs(WorldState& world, bool in_place,
+                                     StepList<ContactSource>& sources) {
+  std::uint32_t index = 0, contacts = 0;
   world.pairs.remove_if([&](Pair& pair) {
-    const std::size_t chunk = index / tolerance::kPairGrain;
     const PairFindings& found = world.findings[index++];
     if (found.gone) {
       note_pair_end(world, pair);
       return true;
     }
-    const std::span<const Contact> contacts =
-        found.kept ? contacts_of(pair, world.contacts)
-                   : std::span<const Contact>(world.contacts_by_chunk[chunk])
-                         .subspan(found.first, found.count);
-    if (!in_place) {
-      pair.first_contact = static_cast<std::uint32_t>(to.size());
-      to.insert(to.end(), contacts.begin(), contacts.end());
-    } else if (!found.kept) {
-      std::copy(contacts.begin(), contacts.end(), to.begin() + pair.first_contact);
-    }
+    sources.push_back({index - 1, pair.first_contact});
+    if (!in_place) pair.first_contact = contacts;
+    contacts += found.count;
     if (found.kept) ++world.report.kept_pairs;
     if (found.asked)
       world.bodies.travel[pair.body_a].asked = world.bodies.travel[pair.body_b].asked = true;
@@ -379,10 +375,36 @@ void take_findings(WorldState& world) {
     pair.touching = found.count > 0 || found.overlaps;
     pair.passage = found.passage;
     pair.memory = found.memory;
-    for (Contact& contact : contacts_of(pair, to)) contact.pair = remaining;
-    ++remaining;
     return false;
   });
+  return contacts;
+}
+
+// Replaces the last step's contacts by those found now, and drops pairs whose bounds have parted.
+void take_findings(WorldState& world) {
+  const bool in_place = contacts_stay_in_place(world);
+  StepList<ContactSource> sources(&world.memory);
+  sources.reserve(world.pairs.size());
+  const std::uint32_t count = take_findings_of_pairs(world, in_place, sources);
+  std::vector<Contact>& to = in_place ? world.contacts : world.new_contacts;
+  to.resize(count);
+  const auto pair_count = static_cast<std::uint32_t>(sources.size());
+  parallel_for(
+      world, pair_count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t i = begin; i < end; ++i) {
+          const Pair& pair = world.pairs[i];
+          if (pair.contact_count == 0) continue;
+          const ContactSource& source = sources[i];
+          const PairFindings& found = world.findings[source.pair];
+          const Contact* from =
+              found.kept
+                  ? &world.contacts[source.first_contact]
+                  : &world.contacts_by_chunk[source.pair / tolerance::kPairGrain][found.first];
+          const std::span<Contact> contacts = contacts_of(pair, to);
+          if (from != contacts.data()) std::copy_n(from, contacts.size(), contacts.begin());
+          for (Contact& contact : contacts) contact.pair = i;
+        }
+      });
   if (!in_place) world.contacts.swap(world.new_contacts);
   world.contacts_fit = world.pairs.changes();
 }
@@ -421,21 +443,51 @@ void spread_depth(WorldState& world) {
   }
 }
 
+// What a chunk of the contacts adds to the report.
+struct ContactCounts {
+  std::uint32_t points = 0, looked_ahead = 0;
+  Real depth = 0;     // [m] the largest overlap
+  bool deep = false;  // one of them is deep for its pair
+};
+
+Real depth_of(const Contact& contact) {
+  Real depth = 0;
+  for (int k = 0; k < contact.manifold.count; ++k)
+    depth = std::max(depth, -contact.manifold.points[k].separation);
+  return depth;
+}
+
 void report_contacts(WorldState& world) {
   StepReport& report = world.report;
   report.candidate_pairs = static_cast<std::uint32_t>(world.pairs.size());
   for (const Pair& pair : world.pairs) report.touching_pairs += pair.contact_count > 0 ? 1 : 0;
-  world.deep_overlap = false;
   const Real deep_slops =
       threshold(world.settings, PlanItem::DeepOverlap, tolerance::kDeepSlops, Real(-1));
-  for (const Contact& contact : world.contacts) {
-    report.contact_points += static_cast<std::uint32_t>(contact.manifold.count);
-    if (length_squared(contact.advance) > Real(0)) ++report.looked_ahead;
-    Real depth = 0;
-    for (int k = 0; k < contact.manifold.count; ++k)
-      depth = std::max(depth, -contact.manifold.points[k].separation);
-    report.largest_penetration = std::max(report.largest_penetration, static_cast<double>(depth));
-    if (depth > deep_slops * world.pairs[contact.pair].slop) note_depth(world, contact);
+  const auto is_deep = [&](const Contact& contact) {
+    return depth_of(contact) > deep_slops * world.pairs[contact.pair].slop;
+  };
+  const auto count = static_cast<std::uint32_t>(world.contacts.size());
+  StepList<ContactCounts> chunks(count / tolerance::kPairGrain + 1, ContactCounts{}, &world.memory);
+  parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    ContactCounts& sum = chunks[begin / tolerance::kPairGrain];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Contact& contact = world.contacts[i];
+      sum.points += static_cast<std::uint32_t>(contact.manifold.count);
+      if (length_squared(contact.advance) > Real(0)) ++sum.looked_ahead;
+      sum.depth = std::max(sum.depth, depth_of(contact));
+      sum.deep |= is_deep(contact);
+    }
+  });
+  world.deep_overlap = false;
+  for (std::uint32_t c = 0; c < chunks.size(); ++c) {
+    report.contact_points += chunks[c].points;
+    report.looked_ahead += chunks[c].looked_ahead;
+    report.largest_penetration =
+        std::max(report.largest_penetration, static_cast<double>(chunks[c].depth));
+    if (!chunks[c].deep) continue;
+    const std::uint32_t begin = c * tolerance::kPairGrain;
+    for (std::uint32_t i = begin; i < std::min(begin + tolerance::kPairGrain, count); ++i)
+      if (is_deep(world.contacts[i])) note_depth(world, world.contacts[i]);
   }
 }
 
