@@ -354,11 +354,13 @@ void build_rows(WorldState& world) {
   // Bodies first: what a row reads of them, and which of them are held by a row. What nothing holds
   // flies, and needs no inertia in world axes.
   StepList<std::uint8_t> held(bodies.dense_count(), kFree, &world.memory);
+  bool some_bounce = false;
   for (const Pair& pair : world.pairs) {
     if (pair.contact_count == 0) continue;
     const auto hold = static_cast<std::uint8_t>(pair.driven ? kHeld | kDriven : kHeld);
     held[bodies.dense_of[pair.body_a]] |= hold;
     held[bodies.dense_of[pair.body_b]] |= hold;
+    some_bounce |= pair.restitution > Real(0);
   }
   const bool all_inertias = !world.joints.empty() || world.diagnostics.ledger || world.has_effects;
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
@@ -382,7 +384,7 @@ void build_rows(WorldState& world) {
   find_spinning_rows(world);
   find_adhesive_rows(world);
   world.bouncing_rows.clear();
-  const bool bounces_in_time = !resolves_worst_first(world);
+  const bool bounces_in_time = some_bounce && !resolves_worst_first(world);
   for (std::uint32_t i = 0; i < count && bounces_in_time; ++i)
     if (world.rows[i].restitution > Real(0)) world.bouncing_rows.push_back(i);
   find_turned_rows(world);

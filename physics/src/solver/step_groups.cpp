@@ -18,6 +18,18 @@ bool concerns_all(const WorldState& world) {
   return (world.diagnostics.ledger && !levels) || resolves_worst_first(world);
 }
 
+// What a row ties, in a few bytes: rows are long, and are read once, by all threads.
+struct RowEnds {
+  std::uint32_t first = 0, last = 0;  // dense; equal where the other one is the world itself
+  bool plain = true;
+};
+
+RowEnds ends_of(const WorldState& world, const ContactRow<Real>& row) {
+  const std::uint32_t first = std::min(row.body_a, row.body_b);
+  const std::uint32_t last = std::max(row.body_a, row.body_b);
+  return {first == 0 ? last : first, last, is_plain(world, row)};  // the world itself ties nothing
+}
+
 // What is known of a body, or of all from it to the last one that rows tie to it.
 struct Tie {
   std::uint32_t last = 0;                           // dense
@@ -33,6 +45,7 @@ class Grouping {
       : world_(world),
         groups_(world.groups),
         group_of_(world.groups.group_of),
+        ends_(world.rows.size(), &world.memory),
         ties_(world.bodies.awake_end, &world.memory) {}
 
   void group() {
@@ -55,16 +68,21 @@ class Grouping {
   }
 
   void tie_by_rows() {
-    for (const ContactRow<Real>& row : world_.rows) {
-      std::uint32_t first = std::min(row.body_a, row.body_b);
-      const std::uint32_t last = std::max(row.body_a, row.body_b);
-      if (first == 0) first = last;  // the world itself ties nothing
-      ties_[first].last = std::max(ties_[first].last, last);
-      ++ties_[first].rows;
-      if (!is_plain(world_, row)) ties_[first].special = true;
-      if (!levels_) continue;
-      ties_[first].approach = std::max(ties_[first].approach, row.approach_speed);
-      ties_[first].longest = std::min(ties_[first].longest, longest_substep(world_, row));
+    const auto count = static_cast<std::uint32_t>(world_.rows.size());
+    parallel_for(world_, count, tolerance::kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t k = begin; k < end; ++k) ends_[k] = ends_of(world_, world_.rows[k]);
+    });
+    for (const RowEnds& row : ends_) {
+      Tie& tie = ties_[row.first];
+      tie.last = std::max(tie.last, row.last);
+      ++tie.rows;
+      tie.special = tie.special || !row.plain;
+    }
+    for (std::uint32_t k = 0; levels_ && k < count; ++k) {
+      const ContactRow<Real>& row = world_.rows[k];
+      Tie& tie = ties_[ends_[k].first];
+      tie.approach = std::max(tie.approach, row.approach_speed);
+      tie.longest = std::min(tie.longest, longest_substep(world_, row));
     }
   }
 
@@ -139,8 +157,7 @@ class Grouping {
     const auto count = static_cast<std::uint32_t>(world_.rows.size());
     StepList<std::uint32_t> group_of_row(count, kTogether, &world_.memory);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const ContactRow<Real>& row = world_.rows[k];
-      const std::uint32_t group = group_of_[std::max(row.body_a, row.body_b)];
+      const std::uint32_t group = group_of_[ends_[k].last];
       group_of_row[k] = group;
       if (group != kTogether) ++groups_.apart[group - 1].rows.end;
     }
@@ -169,7 +186,8 @@ class Grouping {
   const std::uint32_t most_rows_ =
       world_.diagnostics.ledger ? std::numeric_limits<std::uint32_t>::max() : tolerance::kRowsApart;
   std::vector<std::uint32_t>& group_of_;
-  StepList<Tie> ties_;  // per dense body
+  StepList<RowEnds> ends_;  // per row
+  StepList<Tie> ties_;      // per dense body
   Run runs_[kMostHalvings + 1];
 };
 

@@ -1,6 +1,7 @@
 #include "solver/turned_rows.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "solver/body_substep.h"
@@ -119,19 +120,31 @@ Real visible_turning(const BodyMass& m, Rotation q, Vec w) {
   return length(in_body);
 }
 
+// Marks the bodies that turn fast; whether there are any.
+static bool mark_turned_bodies(WorldState& world) {
+  const BodyStore& bodies = world.bodies;
+  const Real limit = fast_turn(world);
+  std::atomic<bool> any = false;
+  parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 bool found = false;
+                 for (std::uint32_t i = bodies.awake_begin + begin; i < bodies.awake_begin + end;
+                      ++i) {
+                   SubstepBody& s = world.substep[i];
+                   const auto turning = [&] {
+                     return visible_turning(bodies.mass[i], bodies.pose[i].q, bodies.velocity[i].w);
+                   };
+                   s.turned = s.constrained && !s.jointed && world.dt * turning() > limit;
+                   found |= s.turned;
+                 }
+                 if (found) any.store(true, std::memory_order_relaxed);
+               });
+  return any;
+}
+
 void find_turned_rows(WorldState& world) {
   world.turned_rows.clear();
-  bool any = false;
-  const Real limit = fast_turn(world);
-  for (std::uint32_t i = world.bodies.awake_begin; i < world.bodies.awake_end; ++i) {
-    SubstepBody& s = world.substep[i];
-    s.turned = s.constrained && !s.jointed &&
-               world.dt * visible_turning(world.bodies.mass[i], world.bodies.pose[i].q,
-                                          world.bodies.velocity[i].w) >
-                   limit;
-    any |= s.turned;
-  }
-  if (!any) return;
+  if (!mark_turned_bodies(world)) return;
   // Bounces keep time, arms and inertia of their own, and rows of fast pairs are those of the
   // moment of first touch.
   for (const ContactRow<Real>& row : world.rows)

@@ -247,6 +247,7 @@ void take_out(WorldState& world, const StepList<std::uint8_t>& hidden) {
 void drop_hidden_contacts(WorldState& world) {
   StepList<Touch> touches(&world.memory);
   list_touches(world, touches);
+  if (touches.empty()) return;
   const auto whole = [](const Touch& t) { return std::pair(t.mover, t.rigid); };
   const auto before = [](const Touch& a, const Touch& b) {
     return std::tuple(a.mover, a.rigid, a.contact, a.of_b) <
