@@ -1,6 +1,7 @@
 #include "solver/contact_blocks.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "math/vector_bits.h"
@@ -80,6 +81,7 @@ class Sorter {
     blocks_.colors.clear();
     reals_ = 0;
     const std::vector<std::uint32_t>& rows = group_.rows;
+    look_at_rows();
     for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
       // The colours are ranges of the rows one behind the other.
       const auto color = std::upper_bound(
@@ -116,12 +118,27 @@ class Sorter {
            (world_.overlaps_deeply[row.body_a] | world_.overlaps_deeply[row.body_b]) != 0;
   }
 
+  // Rows are long: all threads read them, once, and what is sorted is a byte of each.
+  void look_at_rows() {
+    const std::vector<std::uint32_t>& rows = group_.rows;
+    blocks_.kinds.resize(rows.size());
+    parallel_for(group_.jobs, static_cast<std::uint32_t>(rows.size()), tolerance::kRowGrain,
+                 [&](std::uint32_t begin, std::uint32_t end) {
+                   for (std::uint32_t k = begin; k < end; ++k)
+                     blocks_.kinds[k] = kind_of(world_.rows[rows[k]]);
+                 });
+  }
+  [[nodiscard]] RowKind kind_of(const ContactRow<Real>& row) const {
+    const bool fits = blocks_.kernel.lanes > 1 && fits_block(world_, row);
+    return {static_cast<std::uint8_t>(fits ? row.count : 0), is_deep(row)};
+  }
+
   void sort_rows(const std::uint32_t* begin, const std::uint32_t* end, bool deep) {
-    for (const std::uint32_t* k = begin; k != end; ++k) {
-      const ContactRow<Real>& row = world_.rows[*k];
-      if (is_deep(row) != deep) continue;
-      if (blocks_.kernel.lanes > 1 && fits_block(world_, row)) {
-        blocks_.by_points[row.count - 1].push_back(*k);
+    const RowKind* kind = blocks_.kinds.data() + (begin - group_.rows.data());
+    for (const std::uint32_t* k = begin; k != end; ++k, ++kind) {
+      if (kind->deep != deep) continue;
+      if (kind->points > 0) {
+        blocks_.by_points[kind->points - 1].push_back(*k);
       } else {
         blocks_.loose.push_back(*k);
       }
@@ -142,16 +159,8 @@ class Sorter {
     head.points = static_cast<std::uint32_t>(points);
     head.numbers = reals_;
     reals_ += reals_of(points) * static_cast<std::size_t>(blocks_.kernel.lanes);
-    for (std::size_t i = 0; i < count; ++i) {
-      ContactRow<Real>& row = world_.rows[rows[i]];
-      row.in_block = true;
-      head.row[i] = rows[i];
-      head.body_a[i] = row.body_a;
-      head.body_b[i] = row.body_b;
-      head.lanes |= 1u << i;
-      if (world_.substep[row.body_a].constrained) head.writes_a |= 1u << i;
-      if (world_.substep[row.body_b].constrained) head.writes_b |= 1u << i;
-    }
+    head.lanes = (1u << count) - 1u;
+    std::copy_n(rows, count, head.row);
   }
 
   WorldState& world_;
@@ -160,6 +169,19 @@ class Sorter {
   std::size_t reals_ = 0;
 };
 
+// The bodies of a block's rows.
+void take_bodies(WorldState& world, BlockHead& head) {
+  for (std::uint32_t left = head.lanes; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    ContactRow<Real>& row = world.rows[head.row[i]];
+    row.in_block = true;
+    head.body_a[i] = row.body_a;
+    head.body_b[i] = row.body_b;
+    if (world.substep[row.body_a].constrained) head.writes_a |= 1u << i;
+    if (world.substep[row.body_b].constrained) head.writes_b |= 1u << i;
+  }
+}
+
 void respond(ContactRow<Real>& row) {
   fill_responses(row);
   choose_softness(row);
@@ -167,8 +189,8 @@ void respond(ContactRow<Real>& row) {
 }
 
 template <class Task>
-void for_blocks(const StepGroup& group, Task&& task) {
-  const std::vector<BlockHead>& heads = group.blocks.heads;
+void for_blocks(StepGroup& group, Task&& task) {
+  std::vector<BlockHead>& heads = group.blocks.heads;
   parallel_for(group.jobs, static_cast<std::uint32_t>(heads.size()), tolerance::kBlockGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
                  for (std::uint32_t i = begin; i < end; ++i) task(heads[i]);
@@ -206,6 +228,7 @@ void fill_blocks(WorldState& world, StepGroup& group) {
   pass.heads = blocks.heads.data();
   pass.numbers = blocks.data();
   const std::size_t lanes = static_cast<std::size_t>(blocks.kernel.lanes);
+  for_blocks(group, [&](BlockHead& head) { take_bodies(world, head); });
   for_blocks(group, [&](const BlockHead& head) {
     Real* const to = blocks.data() + head.numbers;
     const std::size_t count = reals_of(static_cast<int>(head.points));

@@ -17,6 +17,12 @@ struct IndexRange {
   std::uint32_t begin = 0, end = 0;
 };
 
+// What a row needs to be sorted.
+struct RowKind {
+  std::uint8_t points = 0;  // of a row that goes into a block; 0: it stays alone
+  bool deep = false;        // a body of it overlaps deeply
+};
+
 struct ContactBlocks {
   struct alignas(64) Line {
     std::uint8_t bytes[64];
@@ -32,6 +38,7 @@ struct ContactBlocks {
   std::vector<std::uint32_t> loose;  // rows that stay alone, by colour, depth
   std::vector<Color> colors;
   std::vector<Line> numbers;
+  std::vector<RowKind> kinds;                                  // scratch: of the group's rows
   std::vector<std::uint32_t> by_points[Manifold::kMaxPoints];  // scratch: rows of one colour
 
   [[nodiscard]] Real* data() { return reinterpret_cast<Real*>(numbers.data()); }

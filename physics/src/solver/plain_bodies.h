@@ -169,12 +169,24 @@ class PlainBodies {
   BodyPass pass_;
 };
 
+template <class Task>
+void for_bodies_of(const BodyChunk& chunk, Task&& task) {
+  for (std::uint32_t left = chunk.kernel | chunk.alone; left != 0; left &= left - 1)
+    task(chunk.first + static_cast<std::uint32_t>(std::countr_zero(left)));
+}
 // Calls task(dense) for the bodies of a group that its substeps concern.
 template <class Task>
 void for_bodies_of(const StepGroup& group, Task&& task) {
-  for (const BodyChunk& chunk : group.chunks)
-    for (std::uint32_t left = chunk.kernel | chunk.alone; left != 0; left &= left - 1)
-      task(chunk.first + static_cast<std::uint32_t>(std::countr_zero(left)));
+  for (const BodyChunk& chunk : group.chunks) for_bodies_of(chunk, task);
+}
+// The same by all threads, in any order.
+template <class Task>
+void for_bodies_at_once(const StepGroup& group, Task&& task) {
+  parallel_for(group.jobs, static_cast<std::uint32_t>(group.chunks.size()),
+               tolerance::kBodyGrain / BlockHead::kMostLanes,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 for (std::uint32_t k = begin; k < end; ++k) for_bodies_of(group.chunks[k], task);
+               });
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

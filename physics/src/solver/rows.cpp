@@ -1,5 +1,6 @@
 // Rows: from a manifold and two bodies to the numbers that the solver iterates on.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -315,6 +316,13 @@ void build_turning_rows(WorldState& world) {
 // How contacts hold a body.
 constexpr std::uint8_t kFree = 0, kHeld = 1, kDriven = 2;
 
+// To what several threads may add at once; most find that others were there before.
+void add_bits(std::uint8_t& to, std::uint8_t bits) {
+  const std::atomic_ref shared(to);
+  if ((shared.load(std::memory_order_relaxed) & bits) != bits)
+    shared.fetch_or(bits, std::memory_order_relaxed);
+}
+
 void begin_body(WorldState& world, std::uint32_t i, std::uint8_t hold, bool needs_inertia,
                 RowContext& context) {
   BodyStore& bodies = world.bodies;
@@ -354,14 +362,19 @@ void build_rows(WorldState& world) {
   // Bodies first: what a row reads of them, and which of them are held by a row. What nothing holds
   // flies, and needs no inertia in world axes.
   StepList<std::uint8_t> held(bodies.dense_count(), kFree, &world.memory);
-  bool some_bounce = false;
-  for (const Pair& pair : world.pairs) {
-    if (pair.contact_count == 0) continue;
-    const auto hold = static_cast<std::uint8_t>(pair.driven ? kHeld | kDriven : kHeld);
-    held[bodies.dense_of[pair.body_a]] |= hold;
-    held[bodies.dense_of[pair.body_b]] |= hold;
-    some_bounce |= pair.restitution > Real(0);
-  }
+  std::atomic<bool> some_bounce = false;
+  const auto pair_count = static_cast<std::uint32_t>(world.pairs.size());
+  parallel_for(
+      world, pair_count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t i = begin; i < end; ++i) {
+          const Pair& pair = world.pairs[i];
+          if (pair.contact_count == 0) continue;
+          const auto hold = static_cast<std::uint8_t>(pair.driven ? kHeld | kDriven : kHeld);
+          add_bits(held[bodies.dense_of[pair.body_a]], hold);
+          add_bits(held[bodies.dense_of[pair.body_b]], hold);
+          if (pair.restitution > Real(0)) some_bounce.store(true, std::memory_order_relaxed);
+        }
+      });
   const bool all_inertias = !world.joints.empty() || world.diagnostics.ledger || world.has_effects;
   parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {

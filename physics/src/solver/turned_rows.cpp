@@ -209,9 +209,9 @@ namespace {
 bool find_spun_bodies(WorldState& world, const StepGroup& group) {
   const bool newton = world.newton != nullptr && world.newton->count > 0;
   const Real limit = fast_turn(world);
-  bool any = false;
   if (group.rows.empty()) return false;
-  for_bodies_of(group, [&](std::uint32_t i) {
+  std::atomic<bool> any = false;
+  for_bodies_at_once(group, [&](std::uint32_t i) {
     const Vec w = world.bodies.velocity[i].w;
     if (!(world.dt * length(w) > limit)) return;
     SubstepBody& s = world.substep[i];
@@ -219,7 +219,7 @@ bool find_spun_bodies(WorldState& world, const StepGroup& group) {
     if (!s.constrained || s.split || s.turned || s.spun || is_isotropic(mass)) return;
     if (newton && in_newton_island(world, i)) return;
     s.spun = world.dt * visible_turning(mass, orientation_now(world, i), w) > limit;
-    any |= s.spun;
+    if (s.spun) any.store(true, std::memory_order_relaxed);
   });
   return any;
 }

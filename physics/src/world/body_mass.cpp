@@ -4,6 +4,7 @@
 
 #include "math/eigen_bridge.h"
 #include "motion/body_motion.h"
+#include "world/inner_edges.h"
 #include "world/world_state.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -126,6 +127,7 @@ void update_locks(WorldState& world, std::uint32_t body) {
 void update_collider_frames(WorldState& world, std::uint32_t body) {
   BodyInfo& info = world.bodies.info[body];
   if (world.effects != nullptr) world.effects->forget_surface(body);
+  note_neighbours(world, body);
   info.size = 0;
   info.radius = info.turning_radius = 0;
   for (const std::uint32_t slot : info.colliders) {

@@ -56,11 +56,18 @@ struct ColliderTrees {
 
 class ColliderStore {
  public:
-  std::uint32_t create() { return take_slot(info, free_slots); }
+  std::uint32_t create() {
+    const std::uint32_t slot = take_slot(info, free_slots);
+    has_neighbours.resize(info.size(), 0);
+    return slot;
+  }
   void destroy(std::uint32_t slot) { free_slot(info, free_slots, slot); }
   [[nodiscard]] ColliderId id(std::uint32_t slot) const { return {slot, info[slot].generation}; }
 
   std::vector<ColliderInfo> info;
+  // Per slot: whether other colliders may lie flush with it (inner_edges.h). Asked of every contact
+  // in every step, so it lies by itself.
+  std::vector<std::uint8_t> has_neighbours;
   std::vector<std::uint32_t> free_slots;
 };
 

@@ -1,6 +1,7 @@
 #include "world/contact_report.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "world/forced.h"
 #include "world/tolerances.h"
@@ -81,14 +82,23 @@ void spread_depth(WorldState& world) {
   std::vector<std::uint8_t>& deep = world.overlaps_deeply;
   for (int layer = 0; layer < tolerance::kDeepLayers; ++layer) {
     const StepList<std::uint8_t> before(deep.begin(), deep.end(), &world.memory);
-    for (const Contact& contact : world.contacts) {
-      const Pair& pair = world.pairs[contact.pair];
-      const std::uint32_t a = dense_if_pushed(bodies, pair.body_a);
-      const std::uint32_t b = dense_if_pushed(bodies, pair.body_b);
-      if ((before[a] | before[b]) == 0) continue;
-      if (a != 0) deep[a] = 1;
-      if (b != 0) deep[b] = 1;
-    }
+    const auto was_deep = [&](std::uint32_t body) {
+      const std::uint32_t dense = bodies.dense_of[body];
+      return dense < before.size() && before[dense] != 0;
+    };
+    const auto push = [&](std::uint32_t body) {
+      const std::uint32_t dense = dense_if_pushed(bodies, body);
+      if (dense != 0) std::atomic_ref(deep[dense]).store(1, std::memory_order_relaxed);
+    };
+    const auto count = static_cast<std::uint32_t>(world.pairs.size());
+    parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) {
+        const Pair& pair = world.pairs[i];
+        if (!(was_deep(pair.body_a) || was_deep(pair.body_b)) || pair.contact_count == 0) continue;
+        push(pair.body_a);
+        push(pair.body_b);
+      }
+    });
   }
 }
 

@@ -173,12 +173,10 @@ void follow_faces(WorldState& world, std::span<const Touch> group, std::span<con
 // Which colliders of a touching pair may have flush neighbours.
 constexpr std::uint8_t kOfA = 1, kOfB = 2;
 std::uint8_t neighboured_sides(const WorldState& world, const Pair& pair) {
-  if (pair.contact_count == 0) return 0;
-  const ColliderInfo& a = world.colliders.info[pair.collider_a()];
-  const ColliderInfo& b = world.colliders.info[pair.collider_b()];
-  if (is_surface(a.shape.type) || is_surface(b.shape.type)) return 0;
-  return static_cast<std::uint8_t>((may_have_neighbours(world, a) ? kOfA : 0) |
-                                   (may_have_neighbours(world, b) ? kOfB : 0));
+  if (pair.contact_count == 0 || pair.on_surface) return 0;
+  return static_cast<std::uint8_t>(
+      (world.colliders.has_neighbours[pair.collider_a()] != 0 ? kOfA : 0) |
+      (world.colliders.has_neighbours[pair.collider_b()] != 0 ? kOfB : 0));
 }
 
 void list_touches(WorldState& world, StepList<Touch>& touches) {
@@ -243,6 +241,12 @@ void take_out(WorldState& world, const StepList<std::uint8_t>& hidden) {
 }
 
 }  // namespace
+
+void note_neighbours(WorldState& world, std::uint32_t body) {
+  for (const std::uint32_t slot : world.bodies.info[body].colliders)
+    world.colliders.has_neighbours[slot] =
+        may_have_neighbours(world, world.colliders.info[slot]) ? 1 : 0;
+}
 
 void drop_hidden_contacts(WorldState& world) {
   StepList<Touch> touches(&world.memory);

@@ -1,6 +1,8 @@
 // Ghost collisions: contacts with edges and sides of one convex piece that a neighbour hides.
 #pragma once
 
+#include <cstdint>
+
 #include "plumb/precision.h"
 
 namespace plumb::inline PLUMB_ABI::detail {
@@ -27,5 +29,7 @@ struct WorldState;
 // colliders and children; all others cost one look at each contact. Surfaces (meshes, heightfields)
 // see to their own edges.
 void drop_hidden_contacts(WorldState& world);
+// A body's colliders, type or shapes have changed: which of the colliders may have neighbours.
+void note_neighbours(WorldState& world, std::uint32_t body);
 
 }  // namespace plumb::inline PLUMB_ABI::detail

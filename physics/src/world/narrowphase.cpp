@@ -1,5 +1,6 @@
 // Narrowphase: a manifold for every awake pair, warm-start impulses carried over, sleepers woken.
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "collision/collide_parts.h"
@@ -327,85 +328,102 @@ void collide_all(WorldState& world) {
 // Sleeping dynamic bodies that something awake has reached.
 bool wake_what_is_touched(WorldState& world) {
   world.bodies_to_wake.clear();
+  if (world.islands.size() == world.free_islands.size()) return false;  // nothing sleeps
   for (std::size_t i = 0; i < world.pairs.size(); ++i) {
     const Pair& pair = world.pairs[i];
     if (world.findings[i].count == 0) continue;
     for (const std::uint32_t body : {pair.body_a, pair.body_b})
-      if (world.bodies.info[body].island != kNone) world.bodies_to_wake.push_back(body);
+      if (!world.bodies.is_awake(body) && world.bodies.info[body].island != kNone)
+        world.bodies_to_wake.push_back(body);
   }
   for (const std::uint32_t body : world.bodies_to_wake) wake_body(world, body);
   return !world.bodies_to_wake.empty();
 }
 
-// Whether every pair has as many contacts as in the last step, and they lie in the order of pairs.
-bool contacts_stay_in_place(const WorldState& world) {
-  std::uint32_t next = 0;
-  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
-    const Pair& pair = world.pairs[i];
-    if (world.findings[i].count != pair.contact_count) return false;
-    if (pair.contact_count > 0 && pair.first_contact != next) return false;
-    next += pair.contact_count;
-  }
-  return next == world.contacts.size();
+// Drops the pairs whose bounds have parted. `source`: which of the findings are those of a pair.
+void drop_parted(WorldState& world, StepList<std::uint32_t>& source) {
+  std::uint32_t index = 0;
+  source.reserve(world.pairs.size());
+  world.pairs.remove_if([&](const Pair& pair) {
+    const bool gone = world.findings[index].gone;
+    if (gone) {
+      note_pair_end(world, pair);
+    } else {
+      source.push_back(index);
+    }
+    ++index;
+    return gone;
+  });
 }
 
-// Where the contacts of a pair come from: it was `pair` among the pairs as they were, and its kept
-// contacts begin at `first_contact` among the last step's.
-struct ContactSource {
-  std::uint32_t pair = 0, first_contact = 0;
+// What a chunk of the pairs has: all that must be known of it to place its contacts.
+struct PairChunk {
+  std::uint32_t contacts = 0;  // found now
+  std::uint32_t kept = 0;      // pairs
+  std::uint32_t first = 0;     // in the sum: where its contacts begin
+  // Where the last step's began, if there are as many of each pair as then, one behind the other.
+  std::uint32_t first_before = 0;
+  bool as_before = true;
+
+  void add(const Pair& pair, const PairFindings& found) {
+    if (found.kept) ++kept;
+    if (contacts == 0) first_before = pair.first_contact;
+    as_before = as_before && found.count == pair.contact_count &&
+                (found.count == 0 || pair.first_contact == first_before + contacts);
+    contacts += found.count;
+  }
 };
 
-// Pairs take what was found of them; those whose bounds have parted go. Returns how many contacts
-// there are now. In place, they lie where they lay.
-std::uint32_t take_findings_of_pairs(WorldState& world, bool in_place,
-                                     StepList<ContactSource>& sources) {
-  std::uint32_t index = 0, contacts = 0;
-  world.pairs.remove_if([&](Pair& pair) {
-    const PairFindings& found = world.findings[index++];
-    if (found.gone) {
-      note_pair_end(world, pair);
-      return true;
-    }
-    sources.push_back({index - 1, pair.first_contact});
-    if (!in_place) pair.first_contact = contacts;
-    contacts += found.count;
-    if (found.kept) ++world.report.kept_pairs;
-    if (found.asked)
-      world.bodies.travel[pair.body_a].asked = world.bodies.travel[pair.body_b].asked = true;
-    pair.contact_count = found.count;
-    pair.touching = found.count > 0 || found.overlaps;
-    pair.passage = found.passage;
-    pair.memory = found.memory;
-    return false;
-  });
-  return contacts;
+// A pair takes what was found of it, its contacts to where they begin from now on.
+void take(WorldState& world, std::uint32_t index, std::uint32_t source, std::uint32_t first,
+          std::vector<Contact>& to) {
+  Pair& pair = world.pairs[index];
+  const PairFindings& found = world.findings[source];
+  const Contact* const from =
+      found.kept ? world.contacts.data() + pair.first_contact
+                 : world.contacts_by_chunk[source / tolerance::kPairGrain].data() + found.first;
+  if (found.count > 0 && from != &to[first]) std::copy_n(from, found.count, &to[first]);
+  for (std::uint32_t k = 0; k < found.count; ++k) to[first + k].pair = index;
+  pair.first_contact = first;
+  pair.contact_count = found.count;
+  pair.touching = found.count > 0 || found.overlaps;
+  pair.passage = found.passage;
+  pair.memory = found.memory;
+  if (!found.asked) return;
+  for (const std::uint32_t body : {pair.body_a, pair.body_b})  // pairs share bodies
+    std::atomic_ref(world.bodies.travel[body].asked).store(true, std::memory_order_relaxed);
 }
 
 // Replaces the last step's contacts by those found now, and drops pairs whose bounds have parted.
 void take_findings(WorldState& world) {
-  const bool in_place = contacts_stay_in_place(world);
-  StepList<ContactSource> sources(&world.memory);
-  sources.reserve(world.pairs.size());
-  const std::uint32_t count = take_findings_of_pairs(world, in_place, sources);
+  StepList<std::uint32_t> source(&world.memory);
+  drop_parted(world, source);
+  const auto count = static_cast<std::uint32_t>(source.size());
+  StepList<PairChunk> chunks(count / tolerance::kPairGrain + 1, PairChunk{}, &world.memory);
+  parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    PairChunk& chunk = chunks[begin / tolerance::kPairGrain];
+    for (std::uint32_t i = begin; i < end; ++i)
+      chunk.add(world.pairs[i], world.findings[source[i]]);
+  });
+  std::uint32_t contacts = 0;
+  bool in_place = true;
+  for (PairChunk& chunk : chunks) {
+    chunk.first = contacts;
+    in_place =
+        in_place && chunk.as_before && (chunk.contacts == 0 || chunk.first_before == chunk.first);
+    contacts += chunk.contacts;
+    world.report.kept_pairs += chunk.kept;
+  }
+  in_place = in_place && contacts == world.contacts.size();
   std::vector<Contact>& to = in_place ? world.contacts : world.new_contacts;
-  to.resize(count);
-  const auto pair_count = static_cast<std::uint32_t>(sources.size());
-  parallel_for(
-      world, pair_count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t i = begin; i < end; ++i) {
-          const Pair& pair = world.pairs[i];
-          if (pair.contact_count == 0) continue;
-          const ContactSource& source = sources[i];
-          const PairFindings& found = world.findings[source.pair];
-          const Contact* from =
-              found.kept
-                  ? &world.contacts[source.first_contact]
-                  : &world.contacts_by_chunk[source.pair / tolerance::kPairGrain][found.first];
-          const std::span<Contact> contacts = contacts_of(pair, to);
-          if (from != contacts.data()) std::copy_n(from, contacts.size(), contacts.begin());
-          for (Contact& contact : contacts) contact.pair = i;
-        }
-      });
+  to.resize(contacts);
+  parallel_for(world, count, tolerance::kPairGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    std::uint32_t first = chunks[begin / tolerance::kPairGrain].first;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      take(world, i, source[i], first, to);
+      first += world.pairs[i].contact_count;
+    }
+  });
   if (!in_place) world.contacts.swap(world.new_contacts);
   world.contacts_fit = world.pairs.changes();
 }

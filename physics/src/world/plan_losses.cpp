@@ -16,7 +16,7 @@ std::string number(double x) {
   const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr;
   return std::string(text, end);
 }
-std::string number(float x) { return number(static_cast<double>(x)); }
+[[maybe_unused]] std::string number(float x) { return number(static_cast<double>(x)); }
 std::string name_of(const Worst& worst) { return "body " + std::to_string(worst.body); }
 
 // Without the term L turns with the body instead of standing still in space: |d/dt L| = |w x L|,

@@ -285,6 +285,7 @@ bool restore_colliders(const Snapshot& in, WorldState& world) {
   }
   for (std::size_t slot = 0; slot < listed.size(); ++slot)
     if (world.colliders.info[slot].alive && !listed[slot]) return false;
+  world.colliders.has_neighbours.assign(world.colliders.info.size(), 0);
   for (std::uint32_t body = 0; body < world.bodies.info.size(); ++body)
     if (world.bodies.info[body].alive) update_collider_frames(world, body);
   return read_list(in, "collider_free.slot", world.colliders.free_slots,
