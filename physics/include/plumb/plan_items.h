@@ -36,6 +36,7 @@ enum class PlanItem : unsigned char {
   KeptManifolds,     // of pairs that hardly moved, taken over from an earlier step
   DirectJoints,      // groups of joints, solved at once; else joint by joint, again and again
   JointSubsteps,     // substeps of their own for groups of joints that turn or swing fast
+  StepLevels,        // fewer substeps for islands that err by less than step_tolerance with them
   // Effects, in the order of EffectKind (plumb/effects.h).
   PointGravity,
   ForceField,

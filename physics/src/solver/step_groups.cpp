@@ -5,6 +5,7 @@
 
 #include "solver/step_levels.h"
 #include "solver/worst_first.h"
+#include "world/forced.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -14,7 +15,7 @@ namespace {
 // Whether some stage between the passes concerns all bodies.
 bool concerns_all(const WorldState& world) {
   // The ledger is kept of one group after the other where that is not the same as all together.
-  const bool levels = world.settings.step_tolerance > Real(0);
+  const bool levels = step_tolerance_of(world.settings) > Real(0);
   return (world.diagnostics.ledger && !levels) || resolves_worst_first(world);
 }
 
@@ -181,7 +182,7 @@ class Grouping {
   StepGroups& groups_;
   static constexpr int kMostHalvings = 6;  // of 64 substeps
   // With levels of detail every island counts, and the ledger is kept of few groups.
-  const bool levels_ = world_.settings.step_tolerance > Real(0);
+  const bool levels_ = step_tolerance_of(world_.settings) > Real(0);
   const std::uint32_t fewest_rows_ = levels_ ? 1 : tolerance::kFewestRowsApart;
   const std::uint32_t most_rows_ =
       world_.diagnostics.ledger ? std::numeric_limits<std::uint32_t>::max() : tolerance::kRowsApart;
@@ -221,7 +222,7 @@ void find_groups(WorldState& world) {
   groups.together.h = world.h;
   groups.together.jobs = world.jobs;
   find_bouncing_bodies(world);
-  const bool levels = world.settings.step_tolerance > Real(0);
+  const bool levels = step_tolerance_of(world.settings) > Real(0);
   if ((levels || world.rows.size() >= 2 * tolerance::kFewestRowsApart) && !concerns_all(world)) {
     Grouping(world).group();
     return;

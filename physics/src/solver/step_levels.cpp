@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/plain_bodies.h"
+#include "world/forced.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
 
@@ -20,7 +21,7 @@ int halvings_for(const WorldState& world, int wanted, Real approach, Real longes
   for (; halvings > 0; --halvings) {
     const Real h = static_cast<Real>(1 << halvings) * world.h;
     const Real blow = Real(0.5) * h * approach;  // [m]
-    if (blow <= world.settings.step_tolerance && h <= longest) break;
+    if (blow <= step_tolerance_of(world.settings) && h <= longest) break;
   }
   return halvings;
 }
@@ -49,7 +50,7 @@ void refine_row(ContactRow<Real>& row, int halvings) {
 StepErrors::StepErrors(WorldState& world, const StepGroup& group)
     : world_(world),
       group_(group),
-      on_(world.settings.step_tolerance > Real(0) && group.number != kTogether) {}
+      on_(step_tolerance_of(world.settings) > Real(0) && group.number != kTogether) {}
 
 template <class Task>
 void StepErrors::for_bodies(Task&& task) const {
@@ -80,7 +81,7 @@ void StepErrors::note_substep() {
 std::uint32_t StepErrors::settle() {
   if (!on_) return 0;
   std::uint32_t bodies = 0;
-  const Real allowed = world_.settings.step_tolerance;
+  const Real allowed = step_tolerance_of(world_.settings);
   const int most = most_halvings(world_.settings.substeps);
   for_bodies([&](std::uint32_t i) {
     ++bodies;

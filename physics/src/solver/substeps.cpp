@@ -31,6 +31,7 @@
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
 #include "solver/worst_first.h"
+#include "world/forced.h"
 #include "world/ledger_charges.h"
 #include "world/tolerances.h"
 #include "world/world_state.h"
@@ -450,7 +451,7 @@ void run_apart(WorldState& world, std::uint32_t k, RowCalls& calls) {
 // detail after the other, since those of different levels lie among one another.
 void run_groups_apart(WorldState& world, RowCalls& calls) {
   std::vector<StepGroups::Apart>& groups = world.groups.apart;
-  const bool levels = world.settings.step_tolerance > Real(0);
+  const bool levels = step_tolerance_of(world.settings) > Real(0);
   if (levels) {
     world.step_errors.resize(world.bodies.awake_end);
     forget_levels_together(world);

@@ -48,6 +48,11 @@ inline ContactSolver solver_of(const WorldSettings& settings) {
   return settings.contact_solver;
 }
 
+// [m] What islands may err by for fewer substeps; 0: they take all of them.
+inline Real step_tolerance_of(const WorldSettings& settings) {
+  return settings.forced.off(PlanItem::StepLevels) ? Real(0) : settings.step_tolerance;
+}
+
 inline bool has_gyroscopic_term(const WorldSettings& settings) {
   const Choice choice = settings.forced.of(PlanItem::Gyroscopic);
   return choice == Choice::Automatic ? settings.rotation != RotationMethod::Book

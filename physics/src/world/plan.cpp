@@ -101,6 +101,17 @@ std::string why_effect(const PlanTally& t, PlanItem item) {
          of(t.reached[kind], t.body.dynamic, "dynamic bodies");
 }
 
+std::string why_step_levels(const WorldState& world, const BodyTally& body) {
+  const WorldSettings& settings = world.settings;
+  if (!(settings.step_tolerance > Real(0)))
+    return "step_tolerance is 0: all islands take the world's " +
+           std::to_string(settings.substeps) + " substeps";
+  std::string bodies = of(body.coarse, body.awake, "awake bodies do with fewer substeps than ") +
+                       std::to_string(settings.substeps);
+  if (body.coarse > 0) bodies += ", down to " + std::to_string(settings.substeps >> body.halvings);
+  return bodies + "; " + std::to_string(world.report.coarse_bodies) + " did in the last step";
+}
+
 // Who calls for an item, or why nothing does.
 std::string why(const WorldState& world, const PlanTally& t, PlanItem item) {
   const BodyTally& body = t.body;
@@ -169,6 +180,8 @@ std::string why(const WorldState& world, const PlanTally& t, PlanItem item) {
       return "groups of joints asked for " + std::to_string(t.joint.wanted) +
              " substeps of their own in the last step, up to " + std::to_string(t.joint.most) +
              " in one of the world's";
+    case PlanItem::StepLevels:
+      return why_step_levels(world, body);
     default:
       return why_effect(t, item);
   }

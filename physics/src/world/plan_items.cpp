@@ -69,6 +69,8 @@ const char* name_of(PlanItem item) {
       return "direct joints";
     case PlanItem::JointSubsteps:
       return "joint substeps";
+    case PlanItem::StepLevels:
+      return "step levels";
     default:
       break;
   }
@@ -102,6 +104,7 @@ bool may_force(PlanItem item, Choice choice) {
     case PlanItem::AnisotropicFriction:
     case PlanItem::Adhesion:
     case PlanItem::KeptManifolds:
+    case PlanItem::StepLevels:
       return choice != Choice::On;
     case PlanItem::Gravity:
     case PlanItem::Forces:

@@ -112,6 +112,8 @@ std::string loss_of(const WorldState& world, const PlanTally& t, PlanItem item) 
              " m/s that relaxing would have taken back";
     case PlanItem::KeptManifolds:
       return "nothing but time: manifolds are found anew in every step";
+    case PlanItem::StepLevels:
+      return "nothing but time: all islands take all substeps";
     case PlanItem::DirectJoints:
       return loss_of_direct_joints(t);
     case PlanItem::JointSubsteps:

@@ -76,6 +76,10 @@ void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& held
     if (info.type == MotionType::Kinematic) ++t.kinematic;
     if (info.type != MotionType::Dynamic) continue;
     ++t.dynamic;
+    if (awake && info.level.halvings > 0) {
+      ++t.coarse;
+      t.halvings = std::max(t.halvings, int{info.level.halvings});
+    }
     const BodyMass& m = bodies.mass[info.dense];
     const BodyForce& f = bodies.force[info.dense];
     t.thickness.note(slot, info.size);
@@ -227,6 +231,7 @@ std::uint64_t called_items(const WorldState& world, const PlanTally& t) {
   call(PlanItem::KeptManifolds, t.pair.touching > 0);
   call(PlanItem::DirectJoints, t.joint.grouped > 0);
   call(PlanItem::JointSubsteps, t.joint.wanted > 0);
+  call(PlanItem::StepLevels, settings.step_tolerance > 0 && t.body.coarse > 0);
   for (std::size_t kind = 0; kind < kEffectKindCount; ++kind)
     call(item_of_effect(kind), t.reached[kind] > 0);
   return items;

@@ -22,6 +22,8 @@ struct Worst {
 struct BodyTally {
   std::uint32_t dynamic = 0, kinematic = 0, awake = 0, weightless = 0;
   std::uint32_t forced = 0, damped = 0, locked = 0;
+  std::uint32_t coarse = 0;  // want fewer substeps than the world's
+  int halvings = 0;          // ... the most of them
   std::uint32_t isotropic = 0, unturnable = 0, steady = 0, tumbling = 0;
   std::uint32_t far = 0;   // move by more than a fraction of their thickness in a step
   std::uint32_t fast = 0;  // touch something, and turn by more than kFastTurn in a step

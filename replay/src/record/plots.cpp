@@ -23,8 +23,9 @@ Plots::Plots()
 void Plots::send_names(rrd::Writer& writer) {
   send_series(writer, energy_.entity(),
               {"total [J]", "kinetic, linear [J]", "kinetic, angular [J]", "potential [J]"});
-  send_series(writer, counts_.entity(),
-              {"awake bodies", "touching pairs", "contact points", "islands"});
+  send_series(
+      writer, counts_.entity(),
+      {"awake bodies", "touching pairs", "contact points", "islands", "with fewer substeps"});
   send_series(writer, overlap_.entity(), {"deepest overlap [mm]"});
   std::vector<std::string> stages;
   for (std::size_t i = 0; i < kStageCount; ++i)
@@ -41,7 +42,8 @@ void Plots::add(const Frame& frame) {
   add_row(counts_, frame,
           std::array{
               static_cast<double>(report.awake_bodies), static_cast<double>(report.touching_pairs),
-              static_cast<double>(report.contact_points), static_cast<double>(report.islands)});
+              static_cast<double>(report.contact_points), static_cast<double>(report.islands),
+              static_cast<double>(report.coarse_bodies)});
   add_row(overlap_, frame, std::array{report.largest_penetration * kMillimetersPerMeter});
   if (frame.profiled) {
     std::array<double, kStageCount> milliseconds{};

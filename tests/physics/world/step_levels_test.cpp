@@ -210,6 +210,35 @@ TEST(StepLevels, WhatJointsHoldHasAllSubsteps) {
   EXPECT_EQ(world.last_report().coarse_bodies, 1u);
 }
 
+// The plan says so from the step on in which an island has fewer, and forced off it has all.
+TEST(StepLevels, StandInThePlanAndMayBeForcedOff) {
+  PhysicsWorld world(settings_with(1e-2, 16));
+  add_slab(world, 20, 20);
+  add(world, body_at(at(0, 0.5, 0)), with(cube(0.5)));
+  EXPECT_FALSE(world.plan().active(PlanItem::StepLevels));
+  for (int i = 0; i < 30; ++i) world.step(kDt);
+  ASSERT_EQ(world.last_report().coarse_bodies, 1u);
+  const PlanDecision usual = world.plan().decisions[static_cast<std::size_t>(PlanItem::StepLevels)];
+  EXPECT_TRUE(usual.active);
+  EXPECT_NE(usual.reason.find("1 of 1 awake bodies"), std::string::npos) << usual.reason;
+
+  WorldSettings all = world.settings();
+  all.forced.set(PlanItem::StepLevels, Choice::Off);
+  PhysicsWorld forced, none;
+  must(forced.restore(world.save()));
+  must(forced.set_settings(all));
+  EXPECT_FALSE(forced.plan().active(PlanItem::StepLevels));
+  // The same as without a tolerance.
+  must(none.restore(world.save()));
+  must(none.set_settings(settings_with(0, 16)));
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(forced.step(kDt).coarse_bodies, 0u);
+    none.step(kDt);
+  }
+  for (const BodyState& state : states(none))
+    EXPECT_EQ(position(forced, state.id), position(none, state.id));
+}
+
 TEST(StepLevels, RefuseWhatIsNoTolerance) {
   PhysicsWorld world(settings_with(1e-3, 16));
   for (const double wrong : {-1e-9, std::nan(""), double{INFINITY}}) {
