@@ -181,7 +181,7 @@ void hand_over(WorldState& world, AffectedBody& body) {
   world.bodies.force[body.dense].linear_damping = static_cast<Real>(body.rate);
   const NumVec left = all.force - body.mass * body.rate * body.v + body.mass * body.drawn;
   const NumVec turning = body.inverse.angular * all.torque;
-  const double radius = static_cast<double>(world.bodies.info[body.slot].radius);
+  const double radius = static_cast<double>(world.bodies.extent[body.slot].radius);
   s.balanced = body.held > 0 && length(left) < kBalanced * body.held &&
                body.mass * length(turning) * radius < kBalanced * body.held;
 }

@@ -26,9 +26,9 @@ Place place_of(const WorldState& world, std::uint32_t body, bool ever) {
   const BodyVelocity& u = world.bodies.velocity[info.dense];
   const double dt = static_cast<double>(coming_step(world));
   const double g = static_cast<double>(world.settings.gravity.norm());
-  const double a = static_cast<double>(length(info.acceleration)) + g;
+  const double a = static_cast<double>(length(world.bodies.acceleration[body])) + g;
   const double way = ever ? 0 : static_cast<double>(length(u.v)) * dt + a * dt * dt;
-  const double radius = static_cast<double>(info.radius);
+  const double radius = static_cast<double>(world.bodies.extent[body].radius);
   return {cast<Num>(world.bodies.pose[info.dense].x), 2 * way, radius};
 }
 

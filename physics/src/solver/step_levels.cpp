@@ -70,7 +70,7 @@ void StepErrors::note_substep() {
       error = {dv, Real(0), dL};
       return;
     }
-    const Real far = world_.bodies.info[world_.bodies.slot_of[i]].radius;
+    const Real far = world_.bodies.extent[world_.bodies.slot_of[i]].radius;
     error.sum += length(dv - error.dv) + far * length(s.I_inverse * (dL - error.dL));
     error.dv = dv;
     error.dL = dL;

@@ -144,7 +144,7 @@ static bool mark_turned_bodies(WorldState& world) {
 
 void find_turned_rows(WorldState& world) {
   world.turned_rows.clear();
-  if (!mark_turned_bodies(world)) return;
+  if (world.rows.empty() || !mark_turned_bodies(world)) return;
   // Bounces keep time, arms and inertia of their own, and rows of fast pairs are those of the
   // moment of first touch.
   for (const ContactRow<Real>& row : world.rows)

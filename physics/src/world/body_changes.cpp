@@ -45,7 +45,7 @@ void change_motion_type(WorldState& world, std::uint32_t body, MotionType type) 
   if (type == MotionType::Kinematic) ++world.counts.kinematic;
   info.type = type;
   info.rest_time = 0;
-  info.acceleration = {0, 0, 0};
+  world.bodies.acceleration[body] = {0, 0, 0};
   refilter_pairs(world, [body](const Pair& pair) { return involves_body(pair, body); });
   const PairsOfBody pairs(world, body);
   BodyForce& force = world.bodies.force[info.dense];

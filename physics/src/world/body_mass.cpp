@@ -128,8 +128,7 @@ void update_collider_frames(WorldState& world, std::uint32_t body) {
   BodyInfo& info = world.bodies.info[body];
   if (world.effects != nullptr) world.effects->forget_surface(body);
   note_neighbours(world, body);
-  info.size = 0;
-  info.radius = info.turning_radius = 0;
+  BodyExtent extent;
   for (const std::uint32_t slot : info.colliders) {
     ColliderInfo& collider = world.colliders.info[slot];
     const LocalPose& local = collider.component.pose;
@@ -138,11 +137,14 @@ void update_collider_frames(WorldState& world, std::uint32_t body) {
     collider.thickness = smallest_thickness(collider.shape);
     collider.farthest = length(collider.in_body.p) + bounding_radius(collider.shape);
     if (collider.component.is_sensor) continue;
-    info.size = info.size > Real(0) ? std::min(info.size, collider.thickness) : collider.thickness;
-    info.radius = std::max(info.radius, collider.farthest);
+    extent.size =
+        extent.size > Real(0) ? std::min(extent.size, collider.thickness) : collider.thickness;
+    extent.radius = std::max(extent.radius, collider.farthest);
     // A ball about the centre turns on the spot.
-    info.turning_radius = std::max(info.turning_radius, collider.farthest - collider.shape.radius);
+    extent.turning_radius =
+        std::max(extent.turning_radius, collider.farthest - collider.shape.radius);
   }
+  world.bodies.extent[body] = extent;
 }
 
 }  // namespace plumb::inline PLUMB_ABI::detail

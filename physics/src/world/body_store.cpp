@@ -31,7 +31,11 @@ std::uint32_t BodyStore::create() {
   const std::uint32_t slot = take_slot(info, free_slots);
   dense_of.resize(info.size());
   travel.resize(info.size());
+  extent.resize(info.size());
+  acceleration.resize(info.size());
   travel[slot] = {};
+  extent[slot] = {};
+  acceleration[slot] = {0, 0, 0};
   dense_of[slot] = info[slot].dense = dense_count();
   push_dense(slot);
   ++alive_count;

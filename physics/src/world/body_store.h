@@ -63,6 +63,12 @@ struct BodyTravel {  // 20 / 40
   bool asked = false;         // some pair asked for it in this step
 };
 
+struct BodyExtent {         // 12 / 24
+  Real size = 0;            // [m] smallest thickness over its colliders
+  Real radius = 0;          // [m] farthest point of its colliders from the centre of mass
+  Real turning_radius = 0;  // [m] farthest one that a turn carries along (no ball's)
+};
+
 // --- by slot: read when something is built, asked for, or ends -----------------------------------
 
 // How many substeps a body's island gets (solver/step_levels.h).
@@ -91,11 +97,7 @@ struct BodyInfo {  // what states are read by comes first
   // called; for which it stays with it; for which its calls are not heard; in a row in which its
   // island took more than its share.
   std::uint8_t newton_calls = 0, newton_steps = 0, newton_pause = 0, newton_overruns = 0;
-  Real size = 0;              // [m] smallest thickness over its colliders
-  Real radius = 0;            // [m] farthest point of its colliders from the centre of mass
-  Real turning_radius = 0;    // [m] farthest one that a turn carries along (no ball's)
-  Vec acceleration{0, 0, 0};  // [m/s^2] from forces and gravity in the last step
-  MassProperties properties;  // in B
+  MassProperties properties;             // in B
   std::vector<std::uint32_t> colliders;  // slots
   std::vector<ColliderId> collider_ids;
 };
@@ -124,6 +126,8 @@ class BodyStore {
   std::vector<BodyInfo> info;
   std::vector<std::uint32_t> dense_of;    // info[slot].dense, close together for the stages' loops
   std::vector<BodyTravel> travel;         // by slot: pairs know slots
+  std::vector<BodyExtent> extent;         // by slot
+  std::vector<Vec> acceleration;          // by slot: from forces and gravity in the last step
   std::vector<std::uint32_t> standing;    // slots whose travel may have ended since then
   std::vector<std::uint32_t> free_slots;  // reused last in, first out
   std::uint32_t alive_count = 0;

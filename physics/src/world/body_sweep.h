@@ -29,6 +29,9 @@ inline bool flies_a_parabola(const WorldState& world, std::uint32_t dense) {
 // Centre of mass relative to `reference`; bodies that do not move in this step are at rest. Free
 // bodies follow their true path, others the straight one between the step's ends.
 Sweep sweep_of_step(const WorldState& world, std::uint32_t dense, PosVec reference);
+// Its two parts: most paths meet nothing, and how the body turns on them is never asked.
+Sweep path_of_step(const WorldState& world, std::uint32_t dense, PosVec reference);
+void add_turn_of_step(const WorldState& world, std::uint32_t dense, Sweep& sweep);
 
 inline SweptShape swept_shape(const ColliderInfo& collider, const Sweep& sweep) {
   return {collider.shape, to_num(collider.in_body.p), to_num(collider.in_body.q), sweep};

@@ -64,9 +64,10 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
     const Real pulled =
         length(multiply_each(bodies.mass[body.dense].inverse_mass, bodies.force[body.dense].force));
     around += world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
-    const bool pushed = world.has_effects && length_squared(body.acceleration) > Real(0);
+    const Vec acceleration = bodies.acceleration[collider.body];
+    const bool pushed = world.has_effects && length_squared(acceleration) > Real(0);
     if (pushed)
-      around += world.dt * world.dt * length(body.acceleration - gravity_on(world, body.dense));
+      around += world.dt * world.dt * length(acceleration - gravity_on(world, body.dense));
     path = world.dt * velocity.v;
   }
   const WorldAabb here{pose.x + cast<PosReal>(box.lower), pose.x + cast<PosReal>(box.upper)};

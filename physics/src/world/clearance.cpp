@@ -21,17 +21,17 @@ constexpr Real kMostRoom = Real(8);  // [-] of the body's radius
 void note_travel(WorldState& world, std::uint32_t dense, const BodyPose& before, Rotation turn) {
   BodyStore& bodies = world.bodies;
   const std::uint32_t slot = bodies.slot_of[dense];
-  const BodyInfo& info = bodies.info[slot];
+  const BodyExtent& extent = bodies.extent[slot];
   const BodyVelocity& velocity = bodies.velocity[dense];
   const Vec path = cast<Real>(bodies.pose[dense].x - before.x);
   // A turn by an angle moves a point by 2 sin(angle / 2) of its distance from the axis.
-  const Real turned = Real(2) * length(Vec{turn.x, turn.y, turn.z}) * info.turning_radius;
+  const Real turned = Real(2) * length(Vec{turn.x, turn.y, turn.z}) * extent.turning_radius;
   constexpr Real kRounding = kRoundings * std::numeric_limits<Real>::epsilon();
   BodyTravel& travel = bodies.travel[slot];
-  const Real rounding = kRounding * info.radius;
+  const Real rounding = kRounding * extent.radius;
   const Real came = length(path), comes = world.dt * length(velocity.v);
   travel.moved = kLonger * (came + turned) + rounding;
-  travel.coming = kLonger * (comes + world.dt * length(velocity.w) * info.radius);
+  travel.coming = kLonger * (comes + world.dt * length(velocity.w) * extent.radius);
   travel.room -= travel.room_to_turn ? kLonger * came + rounding : travel.moved;
   travel.needed = travel.room_to_turn ? kLonger * comes : travel.coming;
 }
@@ -70,9 +70,9 @@ bool stays_in_boxes(WorldState& world, std::uint32_t body) {
 
 void note_room(WorldState& world, std::uint32_t body, PosReal room, bool to_turn) {
   BodyTravel& travel = world.bodies.travel[body];
-  const BodyInfo& info = world.bodies.info[body];
   // Subtractions from more would lose what is told longer.
-  travel.room = std::min(static_cast<Real>(room) / kLonger, kMostRoom * info.radius);
+  travel.room =
+      std::min(static_cast<Real>(room) / kLonger, kMostRoom * world.bodies.extent[body].radius);
   travel.room_to_turn = to_turn;
   travel.old_reach = false;
 }

@@ -59,13 +59,20 @@ struct FastPair {
 struct Mover {
   std::uint32_t body = 0, dense = 0;
   PosVec start{0, 0, 0};
-  Path first;  // until `stop`
+  Path first;  // until `stop`; without the turn, until that is asked for
+  bool knows_turn = false;
   Num stop = kNever;
   bool carried = false;
   Path then;  // from `stop` to `end`, if carried
   Num end = 1;
   NumVec lift{0, 0, 0};  // [m] out of what it sank into, for the part of the step that it waits
 };
+
+void learn_turn(const WorldState& world, Mover& mover) {
+  if (mover.knows_turn) return;
+  add_turn_of_step(world, mover.dense, mover.first.sweep);
+  mover.knows_turn = true;
+}
 
 struct Hit {
   Num time = kNever;
@@ -142,8 +149,9 @@ bool runs_into(const WorldState& world, std::uint32_t kinematic, std::uint32_t d
   // Where the kinematic body would have taken the dynamic one's centre.
   const NumVec arm = inverse_rotate(k.rotation_at(Num(0)), -k.centre);
   const NumVec taken = k.centre_at(Num(1)) + rotate(k.rotation_at(Num(1)), arm);
-  const Num reach = length(k.turn) * static_cast<Num>(info.radius);
-  return length(taken - own) + reach > static_cast<Num>(tolerance::kContinuousFraction * info.size);
+  const Num reach = length(k.turn) * static_cast<Num>(world.bodies.extent[dynamic].radius);
+  return length(taken - own) + reach >
+         static_cast<Num>(tolerance::kContinuousFraction * world.bodies.extent[dynamic].size);
 }
 
 // Dynamic bodies on the paths of fast kinematic ones join those that moved far themselves. Sleepers
@@ -225,6 +233,7 @@ struct Follower {
         along_path(world.trees.of_moving, own, path, mover.start, begin, consider);
       if (info.continuous)
         along_path(world.trees.of_sleeping, own, path, mover.start, begin, consider);
+      if (!obstacles.empty()) learn_turn(world, mover);
       std::sort(obstacles.begin(), obstacles.end());  // not in the order of the tree
       for (const std::uint32_t other : obstacles) {
         const ColliderInfo& collider = world.colliders.info[other];
@@ -246,7 +255,7 @@ struct Follower {
   }
 
   void follow(Mover& mover) {
-    mover.first.sweep = sweep_of_step(world, mover.dense, mover.start);
+    mover.first.sweep = path_of_step(world, mover.dense, mover.start);
     const Hit hit = first_hit(mover, mover.first, 0, kNone);
     if (hit.body == kNone) return;
     mover.stop = hit.time;
@@ -315,11 +324,13 @@ Num meeting_time(const WorldState& world, const StepList<Mover>& movers, const F
   return kNever;
 }
 
-StepList<FastPair> fast_pairs(WorldState& world, const StepList<Mover>& movers) {
+StepList<FastPair> fast_pairs(WorldState& world, StepList<Mover>& movers) {
   StepList<FastPair> pairs(&world.memory);
   for (const FastOthers& chunk : world.fast_others_by_chunk) {
     for (const auto& [m, other] : chunk) {
       const std::uint32_t n = mover_of(movers, world.colliders.info[other].body);
+      learn_turn(world, movers[m]);
+      learn_turn(world, movers[n]);
       for (const std::uint32_t own : world.bodies.info[movers[m].body].colliders) {
         if (world.colliders.info[own].component.is_sensor || !may_meet(world, own, other)) continue;
         if (own < other) {

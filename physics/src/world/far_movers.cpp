@@ -13,24 +13,25 @@ namespace {
 constexpr Real kNoWay = std::numeric_limits<Real>::min();
 
 bool moved_far(const WorldState& world, std::uint32_t dense) {
-  const BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
+  const std::uint32_t slot = world.bodies.slot_of[dense];
+  const BodyExtent& extent = world.bodies.extent[slot];
   const Real path = length_squared(world.delta[dense].dp);
   const Real spin = world.dt * world.dt * length_squared(world.bodies.velocity[dense].w);
   const Real limit = threshold(world.settings, PlanItem::Continuous,
-                               tolerance::kContinuousFraction * info.size, kNoWay);
+                               tolerance::kContinuousFraction * extent.size, kNoWay);
   // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
-  if (!(Real(2) * (path + spin * info.radius * info.radius) > limit * limit)) return false;
-  return limit > Real(0) && !info.disabled &&
-         std::sqrt(path) + std::sqrt(spin) * info.turning_radius > limit;
+  if (!(Real(2) * (path + spin * extent.radius * extent.radius) > limit * limit)) return false;
+  return limit > Real(0) && !world.bodies.info[slot].disabled &&
+         std::sqrt(path) + std::sqrt(spin) * extent.turning_radius > limit;
 }
 
 }  // namespace
 
 Real path_ahead(const WorldState& world, std::uint32_t body, Real time) {
-  const BodyInfo& info = world.bodies.info[body];
-  const BodyVelocity& u = world.bodies.velocity[info.dense];
+  const BodyVelocity& u = world.bodies.velocity[world.bodies.dense_of[body]];
   const Real spin = length(u.w);
-  return time * (length(u.v) + (spin > Real(0) ? spin * info.turning_radius : Real(0)));
+  return time * (length(u.v) +
+                 (spin > Real(0) ? spin * world.bodies.extent[body].turning_radius : Real(0)));
 }
 
 StepList<std::uint32_t> bodies_that_moved_far(WorldState& world) {

@@ -21,7 +21,6 @@ bool is_sound(const BodyVelocity& velocity, const BodyPose& pose, Vec L) {
 // that is no place.
 bool move_body(WorldState& world, std::uint32_t i) {
   BodyStore& bodies = world.bodies;
-  BodyInfo& info = bodies.info[bodies.slot_of[i]];
   const BodyDelta& delta = world.delta[i];
   BodyPose next = bodies.pose[i];
   next.x += cast<PosReal>(delta.dp);
@@ -32,7 +31,8 @@ bool move_body(WorldState& world, std::uint32_t i) {
   if (turned_here && dynamic)
     bodies.velocity[i].w = angular_velocity_of(bodies.mass[i], next.q, bodies.momentum[i].L);
   const Vec a = world.substep[i].acceleration;
-  if (length_squared(info.acceleration - a) != Real(0)) info.acceleration = a;  // mostly gravity's
+  Vec& last = bodies.acceleration[bodies.slot_of[i]];
+  if (length_squared(last - a) != Real(0)) last = a;  // mostly gravity's
   bodies.force[i].force = bodies.force[i].torque = {0, 0, 0};
   if (!is_sound(bodies.velocity[i], next, bodies.momentum[i].L)) return false;
   const BodyPose before = bodies.pose[i];

@@ -158,7 +158,7 @@ void follow_faces(WorldState& world, std::span<const Touch> group, std::span<con
     const Vec normal = cast<Real>(touch.of_b ? -face : face);
     if (length_squared(normal - contact.manifold.normal) == Real(0)) continue;
     const Num size = Num(2) * static_cast<Num>(std::min(bounding_radius(*pieces[i].shape),
-                                                        world.bodies.info[touch.mover].radius));
+                                                        world.bodies.extent[touch.mover].radius));
     const Num margin = static_cast<Num>(tolerance::kMarginSlops * world.pairs[contact.pair].slop);
     const bool along = dot(face, outward) > Num(0) && length(cross(face, outward)) * size <= margin;
     if (!along) continue;

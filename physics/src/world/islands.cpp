@@ -54,25 +54,28 @@ void link_touching(WorldState& world) {
 }
 
 // A body must be this slow to count as resting [m/s].
-Real rest_speed(const WorldState& world, const BodyInfo& info, Real gravity_scale) {
+Real rest_speed(const WorldState& world, std::uint32_t body, Real gravity_scale) {
+  const Real size = world.bodies.extent[body].size;
   const Real g = static_cast<Real>(world.settings.gravity.norm()) * std::abs(gravity_scale);
-  return std::max(tolerance::kRestSpeedFraction * std::sqrt(g * info.size),
-                  tolerance::kRestSizesPerSecond * info.size);
+  return std::max(tolerance::kRestSpeedFraction * std::sqrt(g * size),
+                  tolerance::kRestSizesPerSecond * size);
 }
 
 void update_rest_time(WorldState& world, std::uint32_t dense) {
-  BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
+  const std::uint32_t body = world.bodies.slot_of[dense];
+  BodyInfo& info = world.bodies.info[body];
   if (info.type != MotionType::Dynamic) return;
   const BodyVelocity& velocity = world.bodies.velocity[dense];
   // What is being pushed out of an overlap, or drawn back by a joint, moves without a velocity.
   const BodyDelta& path = world.delta[dense];
   const Real turned = Real(2) * length(Vec{path.dq.x, path.dq.y, path.dq.z});
-  const Real moved = (length(path.dp) + turned * info.radius) / world.dt;
-  const Real speed = std::max(length(velocity.v) + length(velocity.w) * info.radius, moved);
+  const Real moved = (length(path.dp) + turned * world.bodies.extent[body].radius) / world.dt;
+  const Real speed =
+      std::max(length(velocity.v) + length(velocity.w) * world.bodies.extent[body].radius, moved);
   // What nothing supports is not at rest, however slow it is at the moment: it floats or turns
   // back.
   const bool supported = world.substep[dense].constrained || world.substep[dense].balanced;
-  const Real limit = rest_speed(world, info, world.bodies.mass[dense].gravity_scale);
+  const Real limit = rest_speed(world, body, world.bodies.mass[dense].gravity_scale);
   const bool still = length_squared(velocity.v) == Real(0) &&
                      length_squared(velocity.w) == Real(0) &&
                      length_squared(world.substep[dense].acceleration) == Real(0);
@@ -113,7 +116,7 @@ void add_member(const WorldState& world, Rester& rester, std::uint32_t body) {
   const SubstepBody& s = world.substep[info.dense];
   rester.momentum += mass.mass * world.bodies.velocity[info.dense].v;
   rester.gained += (world.dt * mass.mass) * s.acceleration;
-  rester.rest_momentum += mass.mass * rest_speed(world, info, mass.gravity_scale);
+  rester.rest_momentum += mass.mass * rest_speed(world, body, mass.gravity_scale);
   if (s.jointed || s.affected) rester.held = true;
 }
 
@@ -179,7 +182,7 @@ void store_island(WorldState& world, std::vector<std::uint32_t> bodies) {
     world.bodies.momentum[dense] = {};
     world.bodies.force[dense].force = world.bodies.force[dense].torque = {0, 0, 0};
     info.island = index;
-    info.acceleration = {0, 0, 0};
+    world.bodies.acceleration[body] = {0, 0, 0};
     world.bodies.rest(body);
     for (const std::uint32_t slot : info.colliders) {
       world.trees.set_asleep(world.colliders.info[slot], slot, true);

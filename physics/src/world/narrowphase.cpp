@@ -73,11 +73,11 @@ bool is_tied(const WorldState& world, std::uint32_t body) {
 // has long arms and a normal of the wrong moment, and throws bodies about. What a joint ties is
 // seen coming from farther away: stopped after the step, it would be torn from what it is tied to.
 Real reach_of(const WorldState& world, const Pair& pair) {
-  const BodyInfo& a = world.bodies.info[pair.body_a];
-  const BodyInfo& b = world.bodies.info[pair.body_b];
-  const BodyVelocity& va = world.bodies.velocity[a.dense];
-  const BodyVelocity& vb = world.bodies.velocity[b.dense];
-  const Real speed = length(vb.v - va.v) + length(va.w) * a.radius + length(vb.w) * b.radius;
+  const BodyStore& bodies = world.bodies;
+  const BodyVelocity& va = bodies.velocity[bodies.dense_of[pair.body_a]];
+  const BodyVelocity& vb = bodies.velocity[bodies.dense_of[pair.body_b]];
+  const Real speed = length(vb.v - va.v) + length(va.w) * bodies.extent[pair.body_a].radius +
+                     length(vb.w) * bodies.extent[pair.body_b].radius;
   const Real thickness = pair.slop / tolerance::kSlopFraction;
   // Surfaces are not followed after the step: they are seen coming from as far as it takes.
   const bool tied =
@@ -179,7 +179,9 @@ bool is_seen_anyway(const WorldState& world, const Pair& pair, const Contact& co
   if (!(pair.restitution > Real(0)) && (turns_fast(a) || turns_fast(b))) return false;
   const bool other_moves = (pair.relative_to_b ? a : b).type == MotionType::Dynamic;
   const Vec carried = other_moves ? contact.advance : Vec{0, 0, 0};
-  return is_seen_anyway(contact.manifold, here, carried, std::min(a.radius, b.radius));
+  return is_seen_anyway(
+      contact.manifold, here, carried,
+      std::min(bodies.extent[pair.body_a].radius, bodies.extent[pair.body_b].radius));
 }
 
 // Appends the contacts of a pair of shapes one of which has parts; each takes over from the same

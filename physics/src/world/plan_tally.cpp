@@ -70,7 +70,9 @@ void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& held
     if (awake) {
       ++t.awake;
       const Real path = path_ahead(world, slot, dt);
-      if (path > tolerance::kContinuousFraction * info.size && !info.colliders.empty()) ++t.far;
+      if (path > tolerance::kContinuousFraction * bodies.extent[slot].size &&
+          !info.colliders.empty())
+        ++t.far;
       t.path.note(slot, path);
     }
     if (info.type == MotionType::Kinematic) ++t.kinematic;
@@ -82,7 +84,7 @@ void tally_bodies(const WorldState& world, const std::vector<std::uint8_t>& held
     }
     const BodyMass& m = bodies.mass[info.dense];
     const BodyForce& f = bodies.force[info.dense];
-    t.thickness.note(slot, info.size);
+    t.thickness.note(slot, bodies.extent[slot].size);
     if (length_squared(f.force) > Real(0) || length_squared(f.torque) > Real(0)) ++t.forced;
     if (f.linear_damping > Real(0) || f.angular_damping > Real(0)) ++t.damped;
     if (m.gravity_scale == Real(0)) ++t.weightless;
@@ -129,7 +131,9 @@ void tally_pairs(const WorldState& world, std::vector<std::uint8_t>& held, Real 
     const BodyInfo &a = world.bodies.info[pair.body_a], &b = world.bodies.info[pair.body_b];
     const BodyVelocity &u = world.bodies.velocity[a.dense], &w = world.bodies.velocity[b.dense];
     const Vec v = w.v - u.v;
-    t.approach = std::max(t.approach, length(v) + a.radius * length(u.w) + b.radius * length(w.w));
+    const Real radius_a = world.bodies.extent[pair.body_a].radius;
+    const Real radius_b = world.bodies.extent[pair.body_b].radius;
+    t.approach = std::max(t.approach, length(v) + radius_a * length(u.w) + radius_b * length(w.w));
     const Real thickness = pair.slop / tolerance::kSlopFraction;
     if (dt * length(v) > tolerance::kSweptFraction * thickness) ++t.swept;
     if (pair.contact_count == 0) continue;

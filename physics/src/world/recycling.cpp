@@ -44,8 +44,8 @@ PairMotion motion_of(const WorldState& world, const Pair& pair, const KeptManifo
 
 // No point of the smaller body has moved farther, seen from the other one [m].
 Real relative_path(const WorldState& world, const Pair& pair, const PairMotion& m) {
-  const Real radius_a = world.bodies.info[pair.body_a].radius;
-  const Real radius_b = world.bodies.info[pair.body_b].radius;
+  const Real radius_a = world.bodies.extent[pair.body_a].radius;
+  const Real radius_b = world.bodies.extent[pair.body_b].radius;
   const Rotation turn = m.b.turn * conjugate(m.a.turn);
   const Vec of_centre =
       radius_a < radius_b ? m.a.shift - m.b.of(-m.from_a_to_b) : m.b.shift - m.a.of(m.from_a_to_b);

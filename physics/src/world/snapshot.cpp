@@ -48,7 +48,7 @@ void visit_world(Table& t, WorldState& world) {
 
 template <class Table>
 void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentum& m, BodyForce& f,
-                Real& gravity_scale, bool& awake) {
+                Vec& acceleration, Real& gravity_scale, bool& awake) {
   t("generation", i.generation);
   t("flags", i.alive, i.disabled, i.has_own_mass, i.can_sleep, i.continuous, awake);
   t("type", i.type);
@@ -70,7 +70,7 @@ void visit_body(Table& t, BodyInfo& i, BodyVelocity& v, BodyPose& x, BodyMomentu
   t("torque", f.torque.x, f.torque.y, f.torque.z);
   t("damping", f.linear_damping, f.angular_damping);
   t("gravity_scale", gravity_scale);
-  t.unbounded("acceleration", i.acceleration.x, i.acceleration.y, i.acceleration.z);
+  t.unbounded("acceleration", acceleration.x, acceleration.y, acceleration.z);
   t("center", i.center_B.x, i.center_B.y, i.center_B.z);
   t("principal_axes", i.R_BP.x, i.R_BP.y, i.R_BP.z, i.R_BP.w);
   Eigen::Matrix3d& I = i.properties.I_Bcm_B;
@@ -204,10 +204,11 @@ bool restore_bodies(const Snapshot& in, WorldState& world) {
     BodyPose pose;
     BodyMomentum momentum;
     BodyForce force;
+    Vec acceleration{0, 0, 0};
     Real gravity_scale = 1;
     bool awake = false;
     table.next_row();
-    visit_body(table, info, velocity, pose, momentum, force, gravity_scale, awake);
+    visit_body(table, info, velocity, pose, momentum, force, acceleration, gravity_scale, awake);
     if (!table.ok() ||
         (info.alive && !(info.properties.mass >= 0 && is_unit(pose.q) && is_unit(info.R_BP))))
       return false;
@@ -220,6 +221,7 @@ bool restore_bodies(const Snapshot& in, WorldState& world) {
     bodies.pose[info.dense] = pose;
     bodies.mass[info.dense].gravity_scale = gravity_scale;
     bodies.force[info.dense] = force;
+    bodies.acceleration[made] = acceleration;
     if (info.alive) {
       bodies.info[made].has_own_mass =
           true;                  // its colliders are not there yet: the saved mass holds
@@ -424,7 +426,7 @@ void PhysicsWorld::save(Snapshot& snapshot) const {
       table.next_row();
       visit_body(table, info, world.bodies.velocity[dense], world.bodies.pose[dense],
                  world.bodies.momentum[dense], world.bodies.force[dense],
-                 world.bodies.mass[dense].gravity_scale, awake);
+                 world.bodies.acceleration[slot], world.bodies.mass[dense].gravity_scale, awake);
     }
   }
   add_list(out, "body_free", "slot", world.bodies.free_slots);

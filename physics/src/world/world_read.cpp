@@ -109,8 +109,7 @@ Pos3 PhysicsWorld::center_of_mass(BodyId body) const {
   return detail::to_public_position(state_->bodies.pose[state_->bodies.info[body.index].dense].x);
 }
 Vec3 PhysicsWorld::last_acceleration(BodyId body) const {
-  return is_valid(body) ? detail::to_public(state_->bodies.info[body.index].acceleration)
-                        : Vec3::Zero();
+  return is_valid(body) ? detail::to_public(state_->bodies.acceleration[body.index]) : Vec3::Zero();
 }
 MassProperties PhysicsWorld::mass_properties(BodyId body) const {
   if (!is_valid(body) || state_->bodies.info[body.index].type != MotionType::Dynamic) return {};

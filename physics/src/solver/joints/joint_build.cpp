@@ -64,8 +64,8 @@ void place_joint(const WorldState& world, JointBlock& block, int p, const JointI
 void measure(const WorldState& world, const JointInfo& joint, JointBlock& block) {
   Real size = std::max(length(block.pair[0].arm_a), length(block.pair[0].arm_b));
   for (const std::uint32_t slot : {joint.body_a, joint.body_b})
-    if (slot != kWorldBody && world.bodies.info[slot].radius < kUnbounded)
-      size = std::max(size, world.bodies.info[slot].radius);
+    if (slot != kWorldBody && world.bodies.extent[slot].radius < kUnbounded)
+      size = std::max(size, world.bodies.extent[slot].radius);
   block.size = size > Real(0) ? size : Real(1);
 }
 

@@ -59,7 +59,7 @@ void fill_body(const WorldState& world, Island& island, std::size_t i) {
   const BodyMass& mass = world.bodies.mass[dense];
   const BodyVelocity& velocity = world.bodies.velocity[dense];
   const SubstepBody& s = world.substep[dense];
-  const BodyInfo& info = world.bodies.info[world.bodies.slot_of[dense]];
+  const Real radius = world.bodies.extent[world.bodies.slot_of[dense]].radius;
   body.restricted = false;
   const Vec3d inverse = wide(mass.inverse_mass);
   body.moves = {positive(mass.inverse_mass.x), positive(mass.inverse_mass.y),
@@ -69,8 +69,7 @@ void fill_body(const WorldState& world, Island& island, std::size_t i) {
   body.mass = {mass_of(inverse.x), mass_of(inverse.y), mass_of(inverse.z)};
   fill_turning(world, body);
   body.m = static_cast<double>(mass.mass);
-  body.size =
-      info.radius > Real(0) && info.radius < kUnbounded ? static_cast<double>(info.radius) : 1.0;
+  body.size = radius > Real(0) && radius < kUnbounded ? static_cast<double>(radius) : 1.0;
   const double added = static_cast<double>(length(s.acceleration) * world.h);
   body.weight = body.m * added;
   const Twist now{wide(velocity.v), wide(velocity.w)};
