@@ -42,6 +42,7 @@ struct Reach {
 
 Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) {
   const BodyStore& bodies = world.bodies;
+  const Real dt = coming_step(world);
   const BodyInfo& body = bodies.info[collider.body];
   const BodyPose& pose = bodies.pose[body.dense];
   const Transform placed{rotate(pose.q, collider.in_body.p), pose.q * collider.in_body.q};
@@ -56,19 +57,19 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
     // Turning moves a point by at most |w| times its distance from the centre of mass, and never
     // out of the ball around it.
     const Real far = collider.farthest;
-    turn = std::min(world.dt * length(velocity.w) * far, Real(2) * far);
+    turn = std::min(dt * length(velocity.w) * far, Real(2) * far);
     const Vec t{turn, turn, turn};
     ball = {far, far, far};
     box = {max_each(tight.lower - t, min_each(-ball, tight.lower)),
            min_each(tight.upper + t, max_each(ball, tight.upper))};
     const Real pulled =
         length(multiply_each(bodies.mass[body.dense].inverse_mass, bodies.force[body.dense].force));
-    around += world.dt * world.dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
+    around += dt * dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
     const Vec acceleration = bodies.acceleration[collider.body];
     const bool pushed = world.has_effects && length_squared(acceleration) > Real(0);
     if (pushed)
-      around += world.dt * world.dt * length(acceleration - gravity_on(world, body.dense));
-    path = world.dt * velocity.v;
+      around += dt * dt * length(acceleration - gravity_on(world, body.dense));
+    path = dt * velocity.v;
   }
   const WorldAabb here{pose.x + cast<PosReal>(box.lower), pose.x + cast<PosReal>(box.upper)};
   const PosVec way = cast<PosReal>(path);
@@ -82,10 +83,11 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
 // acts on it then. Cheaper than its reach.
 WorldAabb ball_of_reach(const WorldState& world, const ColliderInfo& collider) {
   const std::uint32_t dense = world.bodies.dense_of[collider.body];
+  const Real dt = coming_step(world);
   const PosVec x = world.bodies.pose[dense].x;
-  const PosVec way = cast<PosReal>(world.dt * world.bodies.velocity[dense].v);
+  const PosVec way = cast<PosReal>(dt * world.bodies.velocity[dense].v);
   const Real slops = tolerance::kMarginSlops * tolerance::kSlopFraction * skin_of(collider);
-  const Real falls = world.dt * world.dt * static_cast<Real>(world.settings.gravity.norm());
+  const Real falls = dt * dt * static_cast<Real>(world.settings.gravity.norm());
   const auto room = static_cast<PosReal>(collider.farthest + slops + falls);
   const PosVec r{room, room, room};
   return swept({x - r, x + r}, way);

@@ -21,8 +21,8 @@ bool moved_far(const WorldState& world, std::uint32_t dense) {
                                tolerance::kContinuousFraction * extent.size, kNoWay);
   // (a + b)^2 <= 2 (a^2 + b^2): nothing far is missed.
   if (!(Real(2) * (path + spin * extent.radius * extent.radius) > limit * limit)) return false;
-  return limit > Real(0) && !world.bodies.info[slot].disabled &&
-         std::sqrt(path) + std::sqrt(spin) * extent.turning_radius > limit;
+  return limit > Real(0) && std::sqrt(path) + std::sqrt(spin) * extent.turning_radius > limit &&
+         !world.bodies.info[slot].disabled;
 }
 
 }  // namespace
