@@ -22,25 +22,25 @@ inline bool goes_plainly(const WorldState& world, std::uint32_t i) {
          !lacks_gyroscopic_term(world.settings, mass);
 }
 
-// How every awake body goes through this step.
-inline void choose_body_ways(WorldState& world) {
-  const BodyStore& bodies = world.bodies;
-  world.body_ways.resize(bodies.awake_end);
-  parallel_for(world, bodies.awake_end - bodies.awake_begin, tolerance::kBodyGrain,
+// How an awake body goes through this step, as far as is known before joints and effects.
+inline void choose_body_way(WorldState& world, std::uint32_t i) {
+  const SubstepBody& s = world.substep[i];
+  // Effects may damp a body from substep to substep.
+  world.body_ways[i] = !goes_plainly(world, i) || s.affected ? BodyWay::Other
+                       : !s.constrained                      ? BodyWay::Free
+                       : !s.split                            ? BodyWay::Held
+                                                             : BodyWay::Other;
+}
+inline void choose_body_ways_anew(WorldState& world) {
+  const std::uint32_t first = world.bodies.awake_begin;
+  parallel_for(world, world.bodies.awake_end - first, tolerance::kBodyGrain,
                [&](std::uint32_t begin, std::uint32_t end) {
-                 for (std::uint32_t k = begin; k < end; ++k) {
-                   const std::uint32_t i = bodies.awake_begin + k;
-                   const SubstepBody& s = world.substep[i];
-                   // Effects may damp a body from substep to substep.
-                   world.body_ways[i] = !goes_plainly(world, i) || s.affected ? BodyWay::Other
-                                        : !s.constrained                      ? BodyWay::Free
-                                        : !s.split                            ? BodyWay::Held
-                                                                              : BodyWay::Other;
-                 }
+                 for (std::uint32_t i = begin; i < end; ++i) choose_body_way(world, first + i);
                });
-  world.groups.all_fly =
-      std::all_of(world.body_ways.begin() + bodies.awake_begin, world.body_ways.end(),
-                  [](BodyWay way) { return way == BodyWay::Free; });
+}
+inline bool all_bodies_fly(const WorldState& world) {
+  return std::all_of(world.body_ways.begin() + world.bodies.awake_begin, world.body_ways.end(),
+                     [](BodyWay way) { return way == BodyWay::Free; });
 }
 
 class PlainBodies {

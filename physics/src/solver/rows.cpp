@@ -10,6 +10,7 @@
 #include "motion/body_motion.h"
 #include "solver/joints/joint_stages.h"
 #include "solver/newton/newton_solver.h"
+#include "solver/plain_bodies.h"
 #include "solver/row_responses.h"
 #include "solver/surface_drive.h"
 #include "solver/turning_kernel.h"
@@ -345,6 +346,7 @@ void begin_body(WorldState& world, std::uint32_t i, std::uint8_t hold, bool need
       s.I_inverse = world_inverse_inertia(m, bodies.pose[i].q);
     }
   }
+  choose_body_way(world, i);
   if (held) context.note(i);
 }
 
@@ -359,6 +361,7 @@ void build_rows(WorldState& world) {
   world.delta[0] = {};
   world.substep[0] = {};
   world.contacts_changed.assign(bodies.awake_end, 0);
+  world.body_ways.resize(bodies.awake_end);
   // Bodies first: what a row reads of them, and which of them are held by a row. What nothing holds
   // flies, and needs no inertia in world axes.
   StepList<std::uint8_t> held(bodies.dense_count(), kFree, &world.memory);

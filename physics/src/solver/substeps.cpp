@@ -477,7 +477,8 @@ void run_substeps(WorldState& world) {
   }
   if (has.effects) begin_effects(world);
   find_groups(world);
-  choose_body_ways(world);
+  if (has.joints || has.effects) choose_body_ways_anew(world);
+  world.groups.all_fly = all_bodies_fly(world);
   fly_free_bodies(world, block_kernel_of(world));
   if (has.ledger) charge_flight(world);
   RowCalls calls(world);

@@ -67,8 +67,7 @@ Reach reach_in_next_step(const WorldState& world, const ColliderInfo& collider) 
     around += dt * dt * (static_cast<Real>(world.settings.gravity.norm()) + pulled);
     const Vec acceleration = bodies.acceleration[collider.body];
     const bool pushed = world.has_effects && length_squared(acceleration) > Real(0);
-    if (pushed)
-      around += dt * dt * length(acceleration - gravity_on(world, body.dense));
+    if (pushed) around += dt * dt * length(acceleration - gravity_on(world, body.dense));
     path = dt * velocity.v;
   }
   const WorldAabb here{pose.x + cast<PosReal>(box.lower), pose.x + cast<PosReal>(box.upper)};
@@ -166,15 +165,20 @@ void give_proxy(WorldState& world, std::uint32_t slot) {
   note_new_box(world, slot);
   WorldAabb fat = reach.box;
   if (!collider.is_static) {
-    const Real spare = tolerance::kFatBoxFraction * skin_of(collider);
+    const Real skin = skin_of(collider);
+    Real spare = tolerance::kFatBoxFraction * skin;
     auto steps = static_cast<PosReal>(tolerance::kFatBoxSteps);
     const PosReal path = length(reach.path);
-    if (!notes.paired && path > PosReal(0))
+    if (!notes.paired && path > PosReal(0)) {
       steps =
           std::clamp(static_cast<PosReal>(tolerance::kFreeBoxFraction * collider.farthest) / path,
                      steps, static_cast<PosReal>(tolerance::kFreeBoxSteps));
+      // Its room is to last as long on all sides.
+      spare = std::clamp(static_cast<Real>(steps * path), spare, tolerance::kFreeBoxSpare * skin);
+    }
     // What spins would soon turn out of a close box: it gets one that it cannot turn out of.
-    if (static_cast<Real>(steps) * reach.turn > spare) fat = union_of(fat, reach.ball);
+    if (static_cast<Real>(steps) * reach.turn > tolerance::kFatBoxFraction * skin)
+      fat = union_of(fat, reach.ball);
     fat = grown(swept(fat, steps * reach.path), static_cast<PosReal>(spare));
   }
   if (collider.proxy == AabbTree::kNull) {

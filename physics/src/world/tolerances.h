@@ -41,6 +41,8 @@ inline constexpr Real kFatBoxSteps = Real(2);
 // many [-]. Long boxes meet little where there is little to meet.
 inline constexpr Real kFreeBoxFraction = Real(6);
 inline constexpr Real kFreeBoxSteps = Real(64);
+// ... and leave as much room on all sides, at most this fraction of the smallest thickness [-].
+inline constexpr Real kFreeBoxSpare = Real(0.25);
 
 // Overlap is worked off no faster than this many thicknesses a second [1/s]. 2: a 1 m box leaves
 // the ground at 2 m/s at most, however deep it was born in it.
