@@ -14,7 +14,8 @@ class Twins {
       : snapshot_(snapshot), before_(before), after_(after), dt_(dt) {}
 
   // Whether every body that differs between `after` and `other` by more than the tolerance differs
-  // as much between `after` and some twin. The twins are stepped when first asked for.
+  // by no more than twice of what it does between `after` and some twin. The twins are stepped when
+  // first asked for.
   [[nodiscard]] bool explain(PlanItem item, const Sample& other);
 
  private:
